@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "prodomos/map/entity.hpp"
+#include "prodomos/map/map_view.hpp"
+#include "prodomos/map/prediction.hpp"
+#include "prodomos/map/records.hpp"
+#include "prodomos/map/submap.hpp"
+
+namespace prodomos::map {
+
+class Database;
+
+/// Everything that one commit changes. Rows whose id is there already are replaced.
+struct MapChange {
+  std::vector<Session> sessions;
+  std::vector<Floor> floors;
+  std::vector<Node> nodes;
+  std::vector<Edge> edges;
+  std::vector<Entity> entities;
+  std::vector<Prediction> predictions;
+  std::vector<TrajectoryPoint> trajectory;
+  std::vector<Event> events;
+  std::vector<std::pair<base::SubMapId, const MapLayer*>> layers;
+  std::optional<Checkpoint> checkpoint;
+};
+
+/// The map file: SQLite in WAL mode, documented in docs/map-file.md. One store writes at a time; any number of MapViews
+/// may read meanwhile, from this process or others.
+class MapStore {
+ public:
+  /// A new file. Throws base::FileError where it cannot be written or something is there already.
+  static MapStore create(const std::filesystem::path& path);
+  /// An existing file, to be grown or resumed. Throws base::FileError where it is no map, damaged, of a newer schema, or
+  /// being written by another process.
+  static MapStore openForWriting(const std::filesystem::path& path);
+  /// In memory only, for programs that map without keeping a file.
+  static MapStore inMemory();
+
+  MapStore(MapStore&&) noexcept;
+  MapStore& operator=(MapStore&&) noexcept;
+  ~MapStore();
+
+  /// All or nothing, in one transaction; returns the new revision. Throws base::FileError (disk full, …), after which
+  /// the file holds what it held before.
+  std::int64_t commit(const MapChange& change);
+  std::optional<Checkpoint> findCheckpoint(base::SessionId session) const;
+  MapView view() const;
+  /// Brings everything into the one file (no -wal beside it) as far as readers allow.
+  void close();
+
+ private:
+  explicit MapStore(std::shared_ptr<Database> database);
+  std::shared_ptr<Database> database_;
+};
+
+}  // namespace prodomos::map

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "prodomos/base/id.hpp"
+#include "prodomos/base/time.hpp"
+#include "prodomos/geometry/pose.hpp"
+#include "prodomos/sensors/reading.hpp"
+
+/// The plain rows of a map file that are neither graph nor layers.
+namespace prodomos::map {
+
+enum class SessionState { kRunning, kComplete };
+
+/// One log's run.
+struct Session {
+  base::SessionId id;
+  std::string log;       ///< path as given
+  std::string logKind;   ///< "MRPT rawlog"
+  std::string config;    ///< YAML, every key
+  std::string poses;     ///< "odometry", "recorded", a file's path
+  std::string version;   ///< of prodomos
+  sensors::ClassTable classes;
+  geometry::Pose3 T_map_travel = geometry::Pose3::Identity();  ///< where the frame of its odometry or recorded poses lies
+  base::Time begin{};  ///< of the first reading placed
+  base::Time end{};
+  SessionState state = SessionState::kRunning;
+  double distance = 0.0;  ///< metres
+};
+
+/// Places at one height.
+struct Floor {
+  int number = 0;
+  double height = 0.0;  ///< metres, in the map frame
+};
+
+/// Where the robot stood at one placed reading.
+struct TrajectoryPoint {
+  base::SessionId session;
+  base::Time time{};
+  base::SubMapId submap;
+  geometry::Pose3 T_travel_body = geometry::Pose3::Identity();  ///< as travelled
+  geometry::Pose3 T_map_body = geometry::Pose3::Identity();     ///< as refined; derived on writing
+};
+
+/// Something that changed: a door opens, a prediction is settled, a node moves.
+struct Event {
+  base::Time time{};
+  base::SessionId session;
+  std::string kind;     ///< "submap_begun", "submap_finished", "session_finished", …
+  std::string subject;  ///< id of what changed: "s12"
+  std::string payload;  ///< JSON object
+};
+
+/// All running state at a sub-map's end, for `--resume`.
+struct Checkpoint {
+  base::SessionId session;
+  std::vector<std::byte> state;
+};
+
+std::string_view toString(SessionState state);
+
+}  // namespace prodomos::map

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "prodomos/base/id.hpp"
+#include "prodomos/base/time.hpp"
+#include "prodomos/geometry/pose.hpp"
+
+namespace prodomos::map {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+enum class SubMapKind { kObserved, kPredicted };
+
+/// A sub-map as the graph knows it: all but its layers and entities.
+struct Node {
+  base::SubMapId id;
+  base::SessionId session;
+  SubMapKind kind = SubMapKind::kObserved;
+  std::optional<int> floor;  ///< number of the floor, 0 where the first session began
+  std::optional<int> place;  ///< number of the topological place; a property of the whole graph
+  geometry::Pose3 T_map_submap = geometry::Pose3::Identity();     ///< as refined: what everybody should use
+  geometry::Pose3 T_travel_submap = geometry::Pose3::Identity();  ///< as travelled, never changed afterwards
+  base::Time begin{};
+  base::Time end{};
+  double distance = 0.0;  ///< metres travelled within
+  int readings = 0;       ///< integrated
+};
+
+enum class EdgeKind { kTravelled, kDoor, kStairs, kLoop, kLift };
+
+/// Reachability between two sub-maps.
+struct Edge {
+  base::EdgeId id;
+  base::SubMapId from;
+  base::SubMapId to;
+  EdgeKind kind = EdgeKind::kTravelled;
+  geometry::Pose3 T_from_to = geometry::Pose3::Identity();
+  Matrix6 information = Matrix6::Zero();  ///< of (translation in metres, rotation vector in radians) in `from`
+  std::optional<base::EntityId> cause;    ///< the door or staircase
+};
+
+/// What is left connected when door, stairs and lift edges are cut (002 §II-A).
+struct TopologicalPlace {
+  int number = 0;
+  std::vector<base::SubMapId> submaps;  ///< ascending
+};
+
+struct Route {
+  std::vector<base::SubMapId> submaps;  ///< from start to goal
+  std::vector<base::EdgeId> edges;      ///< one fewer
+  double length = 0.0;                  ///< metres, from origin to origin
+};
+
+/// Nodes are sub-maps, edges reachability (002 §II-A); on Boost.Graph, with ids that stay when others are removed.
+class TopologicalGraph {
+ public:
+  TopologicalGraph();
+  ~TopologicalGraph();
+  TopologicalGraph(const TopologicalGraph& other);
+  TopologicalGraph& operator=(const TopologicalGraph& other);
+  TopologicalGraph(TopologicalGraph&& other) noexcept;
+  TopologicalGraph& operator=(TopologicalGraph&& other) noexcept;
+
+  /// Throws base::Error where the id is taken.
+  void addNode(const Node& node);
+  /// Throws base::Error where the id is taken or an end is missing.
+  void addEdge(const Edge& edge);
+  void removeNode(base::SubMapId id);  ///< and its edges
+  void removeEdge(base::EdgeId id);
+
+  bool hasNode(base::SubMapId id) const { return findNode(id) != nullptr; }
+  const Node* findNode(base::SubMapId id) const;  ///< null where there is none
+  const Node& getNode(base::SubMapId id) const;   ///< throws base::Error where there is none
+  Node& getNode(base::SubMapId id);
+  bool hasEdge(base::EdgeId id) const { return findEdge(id) != nullptr; }
+  const Edge* findEdge(base::EdgeId id) const;
+  const Edge& getEdge(base::EdgeId id) const;
+  Edge& getEdge(base::EdgeId id);
+
+  std::vector<base::SubMapId> nodes() const;                      ///< ascending
+  std::vector<base::EdgeId> edges() const;                        ///< ascending
+  std::vector<base::EdgeId> edgesOf(base::SubMapId id) const;     ///< ascending
+  std::vector<base::SubMapId> neighbours(base::SubMapId id) const;  ///< ascending, each once
+
+  /// Ordered by their least sub-map; a predicted node is a place of its own.
+  std::vector<TopologicalPlace> places() const;
+  /// How many parts the graph falls into, all edges counting.
+  int componentCount() const;
+  /// The shortest by distance between origins (Dijkstra); none where the two are not connected.
+  std::optional<Route> shortestRoute(base::SubMapId from, base::SubMapId to) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// "observed", "predicted".
+std::string_view toString(SubMapKind kind);
+/// "travelled", "door", "stairs", "loop", "lift".
+std::string_view toString(EdgeKind kind);
+
+}  // namespace prodomos::map
