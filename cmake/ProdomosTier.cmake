@@ -26,6 +26,9 @@ endfunction()
 # The warnings that every translation unit of ours is held to.
 function(prodomos_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion $<$<BOOL:${PRODOMOS_WERROR}>:-Werror>)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    target_compile_options(${target} PRIVATE -Wno-restrict) # false alarms on std::string, GCC bug 105651
+  endif()
 endfunction()
 
 if(PRODOMOS_SANITIZE)

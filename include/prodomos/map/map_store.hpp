@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <vector>
-
 #include "prodomos/map/entity.hpp"
 #include "prodomos/map/map_view.hpp"
 #include "prodomos/map/prediction.hpp"
 #include "prodomos/map/records.hpp"
 #include "prodomos/map/submap.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
 
 namespace prodomos::map {
 
@@ -37,8 +37,8 @@ class MapStore {
  public:
   /// A new file. Throws base::FileError where it cannot be written or something is there already.
   static MapStore create(const std::filesystem::path& path);
-  /// An existing file, to be grown or resumed. Throws base::FileError where it is no map, damaged, of a newer schema, or
-  /// being written by another process.
+  /// An existing file, to be grown or resumed. Throws base::FileError where it is no map, damaged or of a newer
+  /// schema.
   static MapStore openForWriting(const std::filesystem::path& path);
   /// In memory only, for programs that map without keeping a file.
   static MapStore inMemory();
@@ -51,7 +51,8 @@ class MapStore {
   /// the file holds what it held before.
   std::int64_t commit(const MapChange& change);
   std::optional<Checkpoint> findCheckpoint(base::SessionId session) const;
-  MapView view() const;
+  /// What is committed, and, of a running mapper, the sub-map that is not yet.
+  MapView view(std::shared_ptr<const SubMap> running = nullptr) const;
   /// Brings everything into the one file (no -wal beside it) as far as readers allow.
   void close();
 

@@ -2,20 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <map>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "prodomos/map/entity.hpp"
 #include "prodomos/map/layer.hpp"
 #include "prodomos/map/prediction.hpp"
 #include "prodomos/map/records.hpp"
 #include "prodomos/map/submap.hpp"
 #include "prodomos/map/topological_graph.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace prodomos::map {
 
@@ -31,8 +30,8 @@ struct MapChanges {
   std::vector<Event> events;
 };
 
-/// A map to read, from a file or of a running mapper. Graph, entities and predictions are those of one revision, held in
-/// memory; layers and trajectory are read when asked for.
+/// A map to read, from a file or of a running mapper. Graph, entities and predictions are those of one revision, held
+/// in memory; layers and trajectory are read when asked for.
 class MapView {
  public:
   /// Throws base::FileError where the file is missing, no map, damaged or of a newer schema.
@@ -62,13 +61,8 @@ class MapView {
   /// For planners that keep up with a map that grows.
   MapChanges changesSince(std::int64_t revision) const;
 
-  /// The least box around all sub-maps' known cells and origins, in the map frame, of one floor or of all; (min, max).
-  /// Reads every grid.
-  std::pair<Eigen::Vector2d, Eigen::Vector2d> extent(std::optional<int> floor = std::nullopt) const;
-
  private:
   friend class MapStore;
-  friend class LiveView;
   explicit MapView(std::shared_ptr<Database> database);
   void load();
 

@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
-#include <span>
-
 #include "prodomos/geometry/grid_index.hpp"
 #include "prodomos/geometry/ray_fan.hpp"
 #include "prodomos/map/config.hpp"
 #include "prodomos/map/layer.hpp"
+
+#include <Eigen/Core>
+
+#include <limits>
+#include <optional>
+#include <span>
 
 namespace prodomos::map {
 
@@ -27,6 +30,7 @@ class OccupancyGrid final : public MapLayer {
 
   explicit OccupancyGrid(const OccupancyGridConfig& config = {});
 
+  const OccupancyGridConfig& config() const { return config_; }
   double resolution() const { return config_.resolution; }
   /// The cells that storage exists for; all others are unknown.
   const geometry::CellBox& box() const { return box_; }
@@ -50,10 +54,10 @@ class OccupancyGrid final : public MapLayer {
     bool hit = true;
   };
   void insert(const Eigen::Vector2d& origin, std::span<const Beam> beams);
-  /// A level scan; the sensor may stand anywhere in the grid's frame. Its beams are flattened where it is tilted.
+  /// The sensor may stand anywhere in the grid's frame; where it is tilted, its beams are those seen from above.
   void insert(const sensors::LaserScan& scan, const geometry::Pose3& T_grid_sensor);
-  /// Share of the scan's end points whose cells are known already, 0 … 1; 1 where there are none.
-  double overlap(const sensors::LaserScan& scan, const geometry::Pose3& T_grid_sensor) const;
+  /// Share of the reading's end points whose cells are known already, 0 … 1; 1 where it has none.
+  double overlap(const PlacedReading& placed);
 
   std::string_view typeId() const override { return kTypeId; }
   int version() const override { return 1; }
@@ -67,7 +71,13 @@ class OccupancyGrid final : public MapLayer {
   std::vector<std::pair<std::string, std::string>> summary() const override;
 
  private:
+  struct Hit {
+    geometry::CellIndex cell;
+    Cell before = 0;
+  };
+
   void grow(const geometry::CellBox& needed);
+  std::optional<Eigen::Vector2d> levelBeams(const PlacedReading& placed);
   Cell* row(int y) { return cells_.data() + static_cast<std::ptrdiff_t>(y - box_.first.y) * box_.width(); }
   const Cell* row(int y) const { return cells_.data() + static_cast<std::ptrdiff_t>(y - box_.first.y) * box_.width(); }
 
@@ -78,8 +88,12 @@ class OccupancyGrid final : public MapLayer {
   Cell high_;
   geometry::CellBox box_;
   std::vector<Cell> cells_;
-  geometry::RayFan fan_;             // scratch, kept for its memory
-  std::vector<Beam> beams_;          // scratch
+
+  // Scratch of insert(), kept for its memory.
+  geometry::RayFan fan_;
+  std::vector<Beam> beams_;
+  std::vector<Eigen::Vector2d> ends_;
+  std::vector<Hit> hits_;
 };
 
 }  // namespace prodomos::map

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <unordered_map>
-
 #include "prodomos/map/config.hpp"
 #include "prodomos/map/layer.hpp"
+
+#include <unordered_set>
 
 namespace prodomos::map {
 
@@ -39,7 +39,7 @@ class PointLayer final : public MapLayer {
   double voxel_;
   double maxRange_;
   std::vector<Point> points_;
-  std::unordered_map<std::uint64_t, std::uint32_t> voxels_;
+  std::unordered_set<std::uint64_t> voxels_;
 };
 
 }  // namespace prodomos::map

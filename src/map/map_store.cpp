@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prodomos/map/map_store.hpp"
+
+#include "map/blob.hpp"
+#include "map/database.hpp"
+#include "map/rows.hpp"
+#include "map/schema.hpp"
+
+namespace prodomos::map {
+
+namespace {
+
+/// Writes the rows of one commit, inside its transaction.
+class ChangeWriter {
+ public:
+  ChangeWriter(const Database& database, std::int64_t revision) : database_(database), revision_(revision) {}
+
+  void write(const std::vector<Session>& sessions) {
+    auto row = database_.prepare("INSERT OR REPLACE INTO session VALUES (?,?,?,?,?,?,?,?,?,?,?, ?,?,?,?,?,?,?, ?)");
+    for (const auto& s : sessions) {
+      row << s.id << s.log << s.logKind << s.config << s.poses << s.version << toJson(s.classes) << toString(s.state)
+          << s.begin << s.end << s.distance << s.T_map_travel << revision_;
+      row.run();
+    }
+  }
+
+  void write(const std::vector<Floor>& floors) {
+    auto row = database_.prepare("INSERT OR REPLACE INTO floor VALUES (?,?,?)");
+    for (const auto& floor : floors) {
+      row << floor.number << floor.height << revision_;
+      row.run();
+    }
+  }
+
+  void write(const std::vector<Node>& nodes) {
+    // Replacing would lose the place, which is the whole graph's to say.
+    auto row = database_.prepare(
+        "INSERT INTO node VALUES (?,?,?,?,NULL,?,?,?,?, ?,?,?,?,?,?,?, ?,?,?,?,?,?,?, ?) ON CONFLICT (id) DO UPDATE "
+        "SET "
+        "session=excluded.session, kind=excluded.kind, floor=excluded.floor, begin_ns=excluded.begin_ns, "
+        "end_ns=excluded.end_ns, distance=excluded.distance, readings=excluded.readings, x=excluded.x, y=excluded.y, "
+        "z=excluded.z, qx=excluded.qx, qy=excluded.qy, qz=excluded.qz, qw=excluded.qw, travel_x=excluded.travel_x, "
+        "travel_y=excluded.travel_y, travel_z=excluded.travel_z, travel_qx=excluded.travel_qx, "
+        "travel_qy=excluded.travel_qy, travel_qz=excluded.travel_qz, travel_qw=excluded.travel_qw, "
+        "revision=excluded.revision");
+    for (const auto& node : nodes) {
+      row << node.id << node.session << toString(node.kind) << node.floor << node.begin << node.end << node.distance
+          << node.readings << node.T_map_submap << node.T_travel_submap << revision_;
+      row.run();
+      moveTrajectory(node);
+    }
+  }
+
+  void write(const std::vector<Edge>& edges) {
+    auto row = database_.prepare("INSERT OR REPLACE INTO edge VALUES (?,?,?,?, ?,?,?,?,?,?,?, ?,?,?)");
+    for (const auto& edge : edges) {
+      row << edge.id << edge.from << edge.to << toString(edge.kind) << edge.T_from_to << upperTriangle(edge.information)
+          << edge.cause << revision_;
+      row.run();
+    }
+  }
+
+  void write(const std::vector<Entity>& entities) {
+    auto row = database_.prepare("INSERT OR REPLACE INTO entity VALUES (?,?,?,?, ?,?,?,?,?,?,?, ?,?,?,?,?,?,?, ?)");
+    for (const auto& entity : entities) {
+      const std::span points(entity.points_in_submap);
+      row << entity.id << entity.submap << className(entity.attributes) << toString(mobility(entity.attributes))
+          << entity.T_submap_entity << toJson(entity.attributes) << entity.confidence << entity.observations
+          << entity.firstSeen << entity.lastSeen << upperTriangle(entity.covariance)
+          << std::span<const std::byte>(std::as_bytes(points)) << revision_;
+      row.run();
+    }
+  }
+
+  void write(const std::vector<Prediction>& predictions) {
+    auto row = database_.prepare("INSERT OR REPLACE INTO prediction VALUES (?,?,?,?,?,?,?,?,?,?,NULL,?)");
+    for (const auto& prediction : predictions) {
+      row << prediction.id << prediction.cause << prediction.node << prediction.probability << prediction.expectedArea
+          << toJson(prediction.areas) << prediction.made << toString(prediction.state) << prediction.settled
+          << prediction.mergedInto << revision_;
+      row.run();
+    }
+  }
+
+  void write(const std::vector<TrajectoryPoint>& points) {
+    auto row = database_.prepare("INSERT INTO trajectory VALUES (NULL,?,?,?, ?,?,?,?,?,?,?, ?,?,?,?,?,?,?)");
+    base::SubMapId submap{-1};
+    geometry::Pose3 T_map_travel;
+    for (const auto& point : points) {
+      if (point.submap != submap) {
+        submap = point.submap;
+        T_map_travel = mapFromTravel(submap);
+      }
+      row << point.session << point.time << point.submap << T_map_travel * point.T_travel_body << point.T_travel_body;
+      row.run();
+    }
+  }
+
+  void write(const std::vector<Event>& events) {
+    auto row = database_.prepare("INSERT INTO event VALUES (NULL,?,?,?,?,?,?)");
+    for (const auto& event : events) {
+      row << event.time << event.session << event.kind << event.subject << event.payload << revision_;
+      row.run();
+    }
+  }
+
+  void write(const std::vector<std::pair<base::SubMapId, const MapLayer*>>& layers) {
+    auto row = database_.prepare("INSERT OR REPLACE INTO layer VALUES (?,?,?,'zlib',?,?,?,?)");
+    for (const auto& [submap, layer] : layers) {
+      base::ByteWriter raw;
+      layer->save(raw);
+      const auto packed = compress(raw.bytes());
+      row << submap << layer->typeId() << layer->version() << static_cast<std::int64_t>(raw.bytes().size())
+          << checksum(packed) << std::span(packed) << revision_;
+      row.run();
+    }
+  }
+
+  void write(const Checkpoint& checkpoint) {
+    auto row = database_.prepare("INSERT OR REPLACE INTO checkpoint VALUES (?,?,?,?)");
+    row << checkpoint.session << checksum(checkpoint.state) << std::span(checkpoint.state) << revision_;
+    row.run();
+  }
+
+  /// Which place a node belongs to depends on all edges.
+  void updatePlaces() {
+    const auto graph = readGraph(database_);
+    auto row = database_.prepare("UPDATE node SET place = ?, revision = ? WHERE id = ?");
+    for (const auto& place : graph.places()) {
+      for (const auto id : place.submaps) {
+        if (graph.getNode(id).place == place.number) continue;
+        row << place.number << revision_ << id;
+        row.run();
+      }
+    }
+  }
+
+ private:
+  geometry::Pose3 mapFromTravel(base::SubMapId submap) const {
+    auto row = database_.prepare(
+        "SELECT x, y, z, qx, qy, qz, qw, travel_x, travel_y, travel_z, travel_qx, travel_qy, travel_qz, travel_qw "
+        "FROM node WHERE id = ?");
+    row << submap;
+    if (!row.step()) throw base::Error("expected sub-map " + toString(submap) + " before its trajectory");
+    return getPose(row, 0) * getPose(row, 7).inverse();
+  }
+
+  /// Where a node is refined, its stretch of the trajectory moves with it.
+  void moveTrajectory(const Node& node) {
+    auto points = database_.prepare(
+        "SELECT id, travel_x, travel_y, travel_z, travel_qx, travel_qy, travel_qz, travel_qw FROM trajectory "
+        "WHERE node = ?");
+    auto row = database_.prepare("UPDATE trajectory SET x=?, y=?, z=?, qx=?, qy=?, qz=?, qw=? WHERE id = ?");
+    const geometry::Pose3 T_map_travel = node.T_map_submap * node.T_travel_submap.inverse();
+    points << node.id;
+    while (points.step()) {
+      row << T_map_travel * getPose(points, 1) << points.get<std::int64_t>(0);
+      row.run();
+    }
+  }
+
+  const Database& database_;
+  std::int64_t revision_;
+};
+
+}  // namespace
+
+MapStore::MapStore(std::shared_ptr<Database> database) : database_(std::move(database)) {}
+MapStore::MapStore(MapStore&&) noexcept = default;
+MapStore& MapStore::operator=(MapStore&&) noexcept = default;
+MapStore::~MapStore() = default;
+
+MapStore MapStore::create(const std::filesystem::path& path) {
+  if (std::filesystem::exists(path)) throw base::FileError(path.string() + ": is there already");
+  auto database = std::make_shared<Database>(path, Database::Access::kCreate);
+  createSchema(*database);
+  return MapStore(std::move(database));
+}
+
+MapStore MapStore::openForWriting(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path))
+    throw base::FileError(base::expectedFound(path.string(), "a map", "no such file"));
+  auto database = std::make_shared<Database>(path, Database::Access::kWrite);
+  // A process that was killed before its first commit leaves an empty file behind.
+  if (database->number("SELECT count(*) FROM sqlite_master") == 0) createSchema(*database);
+  checkSchema(*database);
+  database->execute("PRAGMA synchronous = NORMAL");
+  return MapStore(std::move(database));
+}
+
+MapStore MapStore::inMemory() {
+  auto database = std::make_shared<Database>("", Database::Access::kCreate);
+  createSchema(*database);
+  return MapStore(std::move(database));
+}
+
+std::int64_t MapStore::commit(const MapChange& change) {
+  Database::Transaction transaction(*database_);
+  const std::int64_t revision = 1 + database_->number("SELECT max(id) FROM revision");
+  {
+    auto row = database_->prepare("INSERT INTO revision (id, session, time_ns) VALUES (?,?,?)");
+    std::optional<base::SessionId> session;
+    base::Time time{};
+    if (!change.events.empty()) {
+      session = change.events.back().session;
+      time = change.events.back().time;
+    }
+    row << revision << session << time;
+    row.run();
+  }
+  ChangeWriter writer(*database_, revision);
+  writer.write(change.sessions);
+  writer.write(change.floors);
+  writer.write(change.nodes);
+  writer.write(change.entities);
+  writer.write(change.edges);
+  writer.write(change.predictions);
+  writer.write(change.trajectory);
+  writer.write(change.events);
+  writer.write(change.layers);
+  if (change.checkpoint) writer.write(*change.checkpoint);
+  if (!change.nodes.empty() || !change.edges.empty()) writer.updatePlaces();
+  transaction.commit();
+  return revision;
+}
+
+std::optional<Checkpoint> MapStore::findCheckpoint(base::SessionId session) const {
+  auto row = database_->prepare("SELECT crc32, state FROM checkpoint WHERE session = ?");
+  row << session;
+  if (!row.step()) return std::nullopt;
+  Checkpoint checkpoint{session, row.get<std::vector<std::byte>>(1)};
+  if (checksum(checkpoint.state) != row.get<std::int64_t>(0)) {
+    throw base::FileError(database_->path() + ": the checkpoint of session " + toString(session) +
+                          " is damaged (its checksum differs)");
+  }
+  return checkpoint;
+}
+
+MapView MapStore::view(std::shared_ptr<const SubMap> running) const {
+  MapView view(database_);
+  if (running) {
+    if (!view.graph_.hasNode(running->node.id)) view.graph_.addNode(running->node);
+    view.running_ = std::move(running);
+  }
+  return view;
+}
+
+void MapStore::close() {
+  database_->execute("PRAGMA wal_checkpoint(TRUNCATE)");
+  database_.reset();
+}
+
+}  // namespace prodomos::map

@@ -1,0 +1,259 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prodomos/map/occupancy_grid.hpp"
+
+#include "map/level_beams.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace prodomos::map {
+
+namespace {
+
+constexpr int kGrowthMargin = 64;  // cells; storage grows in strides, not scan by scan
+
+OccupancyGrid::Cell logOdds(double probability) {
+  return static_cast<OccupancyGrid::Cell>(
+      std::lround(OccupancyGrid::kUnitsPerNat * std::log(probability / (1.0 - probability))));
+}
+
+constexpr Rgba kFreeColor{250, 250, 247, 255};
+constexpr Rgba kOccupiedColor{38, 50, 66, 255};
+constexpr Rgba kUnknownColor{0, 0, 0, 0};
+
+}  // namespace
+
+OccupancyGrid::OccupancyGrid(const OccupancyGridConfig& config)
+    : config_(config),
+      hit_(logOdds(config.hit)),
+      miss_(logOdds(config.miss)),
+      low_(logOdds(config.clampLow)),
+      high_(logOdds(config.clampHigh)) {}
+
+OccupancyGrid::Cell OccupancyGrid::cell(geometry::CellIndex index) const {
+  return box_.contains(index) ? row(index.y)[index.x - box_.first.x] : kUnknownCell;
+}
+
+double OccupancyGrid::probability(geometry::CellIndex index) const {
+  const Cell value = cell(index);
+  return value == kUnknownCell ? 0.5 : 1.0 / (1.0 + std::exp(-value / kUnitsPerNat));
+}
+
+geometry::CellBox OccupancyGrid::knownBox() const {
+  geometry::CellBox known;
+  for (int y = box_.first.y; y <= box_.last.y; ++y) {
+    const auto* cells = row(y);
+    const auto isKnown = [](Cell value) { return value != kUnknownCell; };
+    const auto* end = cells + box_.width();
+    const auto* first = std::find_if(cells, end, isKnown);
+    if (first == end) continue;
+    known.add({box_.first.x + static_cast<int>(first - cells), y});
+    while (!isKnown(*(end - 1))) --end;
+    known.add({box_.first.x + static_cast<int>(end - 1 - cells), y});
+  }
+  return known;
+}
+
+void OccupancyGrid::grow(const geometry::CellBox& needed) {
+  if (needed.empty() || (box_.contains(needed.first) && box_.contains(needed.last))) return;
+  geometry::CellBox grown = needed;
+  grown.first = {grown.first.x - kGrowthMargin, grown.first.y - kGrowthMargin};
+  grown.last = {grown.last.x + kGrowthMargin, grown.last.y + kGrowthMargin};
+  if (!box_.empty()) {
+    grown.add(box_.first);
+    grown.add(box_.last);
+  }
+  std::vector<Cell> cells(static_cast<std::size_t>(grown.width()) * static_cast<std::size_t>(grown.height()),
+                          kUnknownCell);
+  for (int y = box_.first.y; y <= box_.last.y; ++y) {
+    const auto offset = static_cast<std::ptrdiff_t>(y - grown.first.y) * grown.width() + box_.first.x - grown.first.x;
+    std::copy_n(row(y), box_.width(), cells.begin() + offset);
+  }
+  box_ = grown;
+  cells_ = std::move(cells);
+}
+
+void OccupancyGrid::insert(const Eigen::Vector2d& origin, std::span<const Beam> beams) {
+  const double cellsPerMetre = 1.0 / config_.resolution;
+  const Eigen::Vector2d start = origin * cellsPerMetre;
+  const auto cellOf = [](const Eigen::Vector2d& cells) { return geometry::cellAt(cells.x(), cells.y(), 1.0); };
+
+  geometry::CellBox touched;
+  touched.add(cellOf(start));
+  ends_.clear();
+  hits_.clear();
+  for (const auto& beam : beams) {
+    Eigen::Vector2d end = beam.end * cellsPerMetre;
+    const double length = (beam.end - origin).norm();
+    bool hit = beam.hit;
+    if (length > config_.maxRange) {
+      end = start + (end - start) * (config_.maxRange / length);
+      hit = false;
+    }
+    ends_.push_back(end);
+    const auto cell = cellOf(end);
+    touched.add(cell);
+    if (hit) hits_.push_back({cell, 0});
+  }
+  if (ends_.empty()) return;
+  grow(touched);
+
+  // A cell with an end point counts as hit alone: its value is kept aside while the beams pass.
+  for (auto& hit : hits_) hit.before = row(hit.cell.y)[hit.cell.x - box_.first.x];
+  for (const auto& span : fan_.trace(start, ends_)) {
+    auto* cells = row(span.y) - box_.first.x;
+    for (int x = span.first; x <= span.last; ++x) {
+      const Cell before = cells[x] == kUnknownCell ? Cell{0} : cells[x];
+      cells[x] = std::max<Cell>(static_cast<Cell>(before + miss_), low_);
+    }
+  }
+  for (const auto& hit : hits_) {
+    const Cell before = hit.before == kUnknownCell ? Cell{0} : hit.before;
+    row(hit.cell.y)[hit.cell.x - box_.first.x] = std::min<Cell>(static_cast<Cell>(before + hit_), high_);
+  }
+}
+
+void OccupancyGrid::insert(const sensors::LaserScan& scan, const geometry::Pose3& T_grid_sensor) {
+  beams_.clear();
+  appendLevelBeams(scan, T_grid_sensor, config_.maxRange, beams_);
+  insert(T_grid_sensor.translation().head<2>(), beams_);
+}
+
+bool OccupancyGrid::integrate(const PlacedReading& placed) {
+  const auto origin = levelBeams(placed);
+  if (!origin) return false;
+  insert(*origin, beams_);
+  return true;
+}
+
+double OccupancyGrid::overlap(const PlacedReading& placed) {
+  if (!levelBeams(placed)) return 1.0;
+  int ends = 0;
+  int known = 0;
+  for (const auto& beam : beams_) {
+    if (!beam.hit) continue;
+    ++ends;
+    if (state(cellAt(beam.end)) != CellState::kUnknown) ++known;
+  }
+  return ends == 0 ? 1.0 : static_cast<double>(known) / ends;
+}
+
+/// Fills beams_ and returns where they begin; none for readings that range nothing.
+std::optional<Eigen::Vector2d> OccupancyGrid::levelBeams(const PlacedReading& placed) {
+  beams_.clear();
+  geometry::Pose3 T_grid_sensor = placed.T_submap_body;
+  if (const auto* scan = std::get_if<sensors::LaserScan>(&placed.reading.data)) {
+    T_grid_sensor = T_grid_sensor * scan->T_body_sensor;
+    appendLevelBeams(*scan, T_grid_sensor, config_.maxRange, beams_);
+  } else if (const auto* frame = std::get_if<sensors::RgbdFrame>(&placed.reading.data);
+             frame && !frame->depth.empty()) {
+    T_grid_sensor = T_grid_sensor * frame->T_body_camera;
+    appendLevelBeams(*frame, T_grid_sensor, config_.heightBand, placed.movers, beams_);
+  } else if (const auto* cloud = std::get_if<sensors::PointCloud>(&placed.reading.data)) {
+    T_grid_sensor = T_grid_sensor * cloud->T_body_sensor;
+    appendLevelBeams(*cloud, T_grid_sensor, config_.heightBand, placed.movers, beams_);
+  } else {
+    return std::nullopt;
+  }
+  return T_grid_sensor.translation().head<2>();
+}
+
+void OccupancyGrid::merge(const MapLayer& other, const geometry::Pose3& T_this_other) {
+  const auto& source = dynamic_cast<const OccupancyGrid&>(other);
+  const auto known = source.knownBox();
+  if (known.empty()) return;
+  const geometry::Pose2 T_source_this = inverse(geometry::toPose2(T_this_other));
+  const geometry::Pose3 T_this_source = geometry::toPose3(geometry::toPose2(T_this_other));
+
+  geometry::CellBox target;
+  for (const int x : {known.first.x, known.last.x + 1}) {
+    for (const int y : {known.first.y, known.last.y + 1}) {
+      const Eigen::Vector3d corner =
+          T_this_source * Eigen::Vector3d(x * source.resolution(), y * source.resolution(), 0);
+      target.add(cellAt(corner.head<2>()));
+    }
+  }
+  grow(target);
+
+  const double c = std::cos(T_source_this.theta);
+  const double s = std::sin(T_source_this.theta);
+  for (int y = target.first.y; y <= target.last.y; ++y) {
+    auto* cells = row(y) - box_.first.x;
+    const double centreY = geometry::cellCentre(y, config_.resolution);
+    for (int x = target.first.x; x <= target.last.x; ++x) {
+      const double centreX = geometry::cellCentre(x, config_.resolution);
+      const Cell seen = source.cell(geometry::cellAt(T_source_this.x + c * centreX - s * centreY,
+                                                     T_source_this.y + s * centreX + c * centreY, source.resolution()));
+      if (seen == kUnknownCell) continue;
+      const int before = cells[x] == kUnknownCell ? 0 : cells[x];
+      cells[x] = static_cast<Cell>(std::clamp<int>(before + seen, low_, high_));
+    }
+  }
+}
+
+void OccupancyGrid::save(base::ByteWriter& out) const {
+  const auto known = knownBox();
+  out << config_.resolution << config_.maxRange << config_.hit << config_.miss << config_.clampLow << config_.clampHigh
+      << config_.heightBand.least << config_.heightBand.most << known.first.x << known.first.y << known.last.x
+      << known.last.y;
+  for (int y = known.first.y; y <= known.last.y; ++y) {
+    const auto* cells = row(y) - box_.first.x;
+    for (int x = known.first.x; x <= known.last.x; ++x) out << cells[x];
+  }
+}
+
+void OccupancyGrid::load(base::ByteReader& in, int version) {
+  if (version != 1) throw base::Error("expected version 1 of an occupancy grid, found " + std::to_string(version));
+  OccupancyGridConfig config;
+  geometry::CellBox box;
+  in >> config.resolution >> config.maxRange >> config.hit >> config.miss >> config.clampLow >> config.clampHigh >>
+      config.heightBand.least >> config.heightBand.most >> box.first.x >> box.first.y >> box.last.x >> box.last.y;
+  const auto cells = box.empty() ? 0 : static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height());
+  if (cells != in.left() / sizeof(Cell)) {
+    throw base::Error("expected " + std::to_string(cells) + " cells, found " + std::to_string(in.left()) + " bytes");
+  }
+  *this = OccupancyGrid(config);
+  box_ = box;
+  cells_.resize(cells);
+  for (auto& cell : cells_) in >> cell;
+}
+
+Drawing OccupancyGrid::draw() const {
+  Drawing drawing;
+  const auto known = knownBox();
+  if (known.empty()) return drawing;
+  DrawnRaster raster;
+  raster.corner_in_submap = Eigen::Vector2d(known.first.x, known.first.y) * config_.resolution;
+  raster.resolution = config_.resolution;
+  raster.pixels = sensors::Image<Rgba>(known.width(), known.height());
+  for (int y = known.first.y; y <= known.last.y; ++y) {
+    const auto* cells = row(y) - box_.first.x;
+    auto* pixels = raster.pixels.row(y - known.first.y) - known.first.x;
+    for (int x = known.first.x; x <= known.last.x; ++x) {
+      const auto state = stateOf(cells[x]);
+      pixels[x] = state == CellState::kUnknown ? kUnknownColor
+                  : state == CellState::kFree  ? kFreeColor
+                                               : kOccupiedColor;
+    }
+  }
+  drawing.rasters.push_back(std::move(raster));
+  return drawing;
+}
+
+std::vector<std::pair<std::string, std::string>> OccupancyGrid::summary() const {
+  const auto count = [&](CellState state) {
+    return std::count_if(cells_.begin(), cells_.end(), [&](Cell cell) { return stateOf(cell) == state; });
+  };
+  const auto area = [&](CellState state) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.1f m²",
+                  static_cast<double>(count(state)) * config_.resolution * config_.resolution);
+    return std::string(text.data());
+  };
+  return {{"free", area(CellState::kFree)}, {"occupied", area(CellState::kOccupied)}};
+}
+
+}  // namespace prodomos::map

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map/rows.hpp"
+
+#include "map/names.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <limits>
+
+namespace prodomos::map {
+
+using nlohmann::json;
+
+Statement& operator<<(Statement& statement, const geometry::Pose3& pose) {
+  const auto& t = pose.translation();
+  Eigen::Quaterniond q(pose.linear());
+  q.normalize();
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  return statement << t.x() << t.y() << t.z() << q.x() << q.y() << q.z() << q.w();
+}
+
+geometry::Pose3 getPose(const Statement& row, int firstColumn) {
+  const auto at = [&](int offset) { return row.get<double>(firstColumn + offset); };
+  return geometry::fromQuaternion({at(0), at(1), at(2)}, Eigen::Quaterniond(at(6), at(3), at(4), at(5)));
+}
+
+std::string upperTriangle(const Matrix6& matrix) {
+  json numbers = json::array();
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column) numbers.push_back(matrix(row, column));
+  }
+  return numbers.dump();
+}
+
+Matrix6 symmetricFrom(const std::string& upperTriangle) {
+  const auto numbers = json::parse(upperTriangle);
+  Matrix6 matrix;
+  std::size_t at = 0;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column) {
+      const auto& number = numbers.at(at++);
+      matrix(row, column) = matrix(column, row) =
+          number.is_null() ? std::numeric_limits<double>::quiet_NaN() : number.get<double>();
+    }
+  }
+  return matrix;
+}
+
+std::string toJson(const sensors::ClassTable& classes) {
+  json table = json::object();
+  for (const auto& [id, name] : classes) table[std::to_string(id)] = name;
+  return table.dump();
+}
+
+sensors::ClassTable classTableFrom(const std::string& text) {
+  sensors::ClassTable classes;
+  for (const auto& [id, name] : json::parse(text).items()) classes[std::stoi(id)] = name;
+  return classes;
+}
+
+std::string toJson(const std::vector<PredictedArea>& areas) {
+  json list = json::array();
+  for (const auto& area : areas) {
+    json outline = json::array();
+    for (const auto& point : area.outline_in_submap) outline.push_back({point.x(), point.y()});
+    list.push_back({{"threshold", area.threshold}, {"outline", outline}});
+  }
+  return list.dump();
+}
+
+std::vector<PredictedArea> predictedAreasFrom(const std::string& text) {
+  std::vector<PredictedArea> areas;
+  for (const auto& entry : json::parse(text)) {
+    PredictedArea area;
+    area.threshold = entry.at("threshold");
+    for (const auto& point : entry.at("outline")) area.outline_in_submap.emplace_back(point.at(0), point.at(1));
+    areas.push_back(std::move(area));
+  }
+  return areas;
+}
+
+TopologicalGraph readGraph(const Database& database) {
+  TopologicalGraph graph;
+  auto row = database.prepare(
+      "SELECT id, session, kind, floor, place, begin_ns, end_ns, distance, readings, x, y, z, qx, qy, qz, qw, "
+      "travel_x, travel_y, travel_z, travel_qx, travel_qy, travel_qz, travel_qw FROM node ORDER BY id");
+  while (row.step()) {
+    Node node;
+    node.id = getId<base::SubMapId>(row, 0);
+    node.session = getId<base::SessionId>(row, 1);
+    node.kind = fromName(row.get<std::string>(2), SubMapKind::kPredicted);
+    node.floor = row.find<int>(3);
+    node.place = row.find<int>(4);
+    node.begin = getTime(row, 5);
+    node.end = getTime(row, 6);
+    node.distance = row.get<double>(7);
+    node.readings = row.get<int>(8);
+    node.T_map_submap = getPose(row, 9);
+    node.T_travel_submap = getPose(row, 16);
+    graph.addNode(node);
+  }
+  auto link = database.prepare(
+      "SELECT id, from_node, to_node, kind, x, y, z, qx, qy, qz, qw, information, entity FROM edge ORDER BY id");
+  while (link.step()) {
+    Edge edge;
+    edge.id = getId<base::EdgeId>(link, 0);
+    edge.from = getId<base::SubMapId>(link, 1);
+    edge.to = getId<base::SubMapId>(link, 2);
+    edge.kind = fromName(link.get<std::string>(3), EdgeKind::kLift);
+    edge.T_from_to = getPose(link, 4);
+    edge.information = symmetricFrom(link.get<std::string>(11));
+    edge.cause = findId<base::EntityId>(link, 12);
+    graph.addEdge(edge);
+  }
+  return graph;
+}
+
+}  // namespace prodomos::map

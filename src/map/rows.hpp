@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "prodomos/base/id.hpp"
+#include "prodomos/base/time.hpp"
+#include "prodomos/map/entity.hpp"
+#include "prodomos/map/prediction.hpp"
+#include "prodomos/map/records.hpp"
+#include "prodomos/map/topological_graph.hpp"
+
+#include "map/database.hpp"
+
+/// How the values of a map are laid out in the columns of its file: what MapStore writes, MapView reads.
+namespace prodomos::map {
+
+template <char Letter>
+Statement& operator<<(Statement& statement, base::Id<Letter> id) {
+  return statement << id.value;
+}
+template <char Letter>
+Statement& operator<<(Statement& statement, const std::optional<base::Id<Letter>>& id) {
+  return statement << (id ? std::optional(id->value) : std::nullopt);
+}
+inline Statement& operator<<(Statement& statement, base::Time time) {
+  return statement << base::toNanoseconds(time);
+}
+inline Statement& operator<<(Statement& statement, const std::optional<base::Time>& time) {
+  return statement << (time ? std::optional(base::toNanoseconds(*time)) : std::nullopt);
+}
+/// Seven columns: x, y, z, qx, qy, qz, qw with qw >= 0.
+Statement& operator<<(Statement& statement, const geometry::Pose3& pose);
+
+template <typename IdType>
+IdType getId(const Statement& row, int column) {
+  return IdType{row.get<std::int64_t>(column)};
+}
+template <typename IdType>
+std::optional<IdType> findId(const Statement& row, int column) {
+  const auto value = row.find<std::int64_t>(column);
+  return value ? std::optional(IdType{*value}) : std::nullopt;
+}
+inline base::Time getTime(const Statement& row, int column) {
+  return base::fromNanoseconds(row.get<std::int64_t>(column));
+}
+geometry::Pose3 getPose(const Statement& row, int firstColumn);
+
+/// The upper triangle, row by row, as a JSON array of 21 numbers.
+std::string upperTriangle(const Matrix6& matrix);
+Matrix6 symmetricFrom(const std::string& upperTriangle);
+
+std::string toJson(const sensors::ClassTable& classes);
+sensors::ClassTable classTableFrom(const std::string& json);
+std::string toJson(const std::vector<PredictedArea>& areas);
+std::vector<PredictedArea> predictedAreasFrom(const std::string& json);
+
+/// All nodes and edges that the file holds.
+TopologicalGraph readGraph(const Database& database);
+
+}  // namespace prodomos::map
