@@ -55,7 +55,8 @@ std::string toJson(const sensors::ClassTable& classes) {
 
 sensors::ClassTable classTableFrom(const std::string& text) {
   sensors::ClassTable classes;
-  for (const auto& [id, name] : json::parse(text).items()) classes[std::stoi(id)] = name;
+  const auto table = json::parse(text);
+  for (const auto& [id, name] : table.items()) classes[std::stoi(id)] = name;
   return classes;
 }
 
