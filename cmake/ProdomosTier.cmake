@@ -1,10 +1,17 @@
+# Packages are looked for where they are used; what they bring is seen everywhere, because whoever links a static tier
+# links that tier's third parties too.
+set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)
+
 # One tier of the house: a library, its public headers under include/prodomos/<tier>, and the tiers it may see.
 #
 #   prodomos_tier(map SOURCES a.cpp b.cpp USES geometry sensors LIBRARIES SQLite::SQLite3)
 #
 # USES is public (their headers appear in ours); LIBRARIES are third parties, seen in src/ only.
 function(prodomos_tier tier)
-  cmake_parse_arguments(arg "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;USES;LIBRARIES")
+  if(arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "prodomos_tier(${tier}): unknown arguments ${arg_UNPARSED_ARGUMENTS}")
+  endif()
   set(target prodomos_${tier})
   add_library(${target} ${arg_SOURCES})
   add_library(prodomos::${tier} ALIAS ${target})
@@ -15,20 +22,16 @@ function(prodomos_tier tier)
     ${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
                      $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
               PRIVATE ${PROJECT_SOURCE_DIR}/src)
-  foreach(lower IN LISTS arg_USES)
-    target_link_libraries(${target} PUBLIC prodomos::${lower})
-  endforeach()
-  target_link_libraries(${target} PRIVATE ${arg_LIBRARIES})
+  list(TRANSFORM arg_USES PREPEND prodomos::)
+  target_link_libraries(${target} PUBLIC ${arg_USES} PRIVATE ${arg_LIBRARIES})
   prodomos_warnings(${target})
-  install(TARGETS ${target} EXPORT prodomosTargets COMPONENT ${tier})
+  set_property(GLOBAL APPEND PROPERTY PRODOMOS_TIERS ${tier})
 endfunction()
 
-# The warnings that every translation unit of ours is held to.
+# The warnings that every translation unit of ours is held to. -Wrestrict of g++ 12 sees overlaps in plain `"a" + text`.
 function(prodomos_warnings target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion $<$<BOOL:${PRODOMOS_WERROR}>:-Werror>)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    target_compile_options(${target} PRIVATE -Wno-restrict) # false alarms on std::string, GCC bug 105651
-  endif()
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion
+                                           $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<BOOL:${PRODOMOS_WERROR}>:-Werror>)
 endfunction()
 
 if(PRODOMOS_SANITIZE)

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <iostream>
+
+#include "prodomos/query/query.hpp"
+
+int main(int, char** arguments) {
+  const auto view = prodomos::map::MapView::open(arguments[1]);
+  const auto start = prodomos::query::placeAt(view, {0.0, 0.0, {}});
+  std::cout << view.graph().nodes().size() << " sub-maps; the origin lies in "
+            << (start.submap ? toString(*start.submap) : "none") << "\n";
+  return start.submap ? 0 : 1;
+}
