@@ -22,6 +22,10 @@ class ChangeWriter {
       row << s.id << s.log << s.logKind << s.config << s.poses << s.version << toJson(s.classes) << toString(s.state)
           << s.begin << s.end << s.distance << s.T_map_travel << revision_;
       row.run();
+      if (s.state != SessionState::kComplete) continue;
+      auto done = database_.prepare("DELETE FROM checkpoint WHERE session = ?");
+      done << s.id;
+      done.run();
     }
   }
 
@@ -237,12 +241,15 @@ std::optional<Checkpoint> MapStore::findCheckpoint(base::SessionId session) cons
   return checkpoint;
 }
 
-MapView MapStore::view(std::shared_ptr<const SubMap> running) const {
+MapView MapStore::view(std::shared_ptr<const SubMap> running, const std::optional<Edge>& edgeTo) const {
   MapView view(database_);
-  if (running) {
-    if (!view.graph_.hasNode(running->node.id)) view.graph_.addNode(running->node);
-    view.running_ = std::move(running);
+  if (!running) return view;
+  view.graph_.addNode(running->node);
+  if (edgeTo) view.graph_.addEdge(*edgeTo);
+  for (const auto& place : view.graph_.places()) {
+    for (const auto id : place.submaps) view.graph_.getNode(id).place = place.number;
   }
+  view.running_ = std::move(running);
   return view;
 }
 

@@ -17,7 +17,8 @@ namespace prodomos::map {
 
 class Database;
 
-/// Everything that one commit changes. Rows whose id is there already are replaced.
+/// Everything that one commit changes. Rows whose id is there already are replaced. A session
+/// that is complete loses its checkpoint.
 struct MapChange {
   std::vector<Session> sessions;
   std::vector<Floor> floors;
@@ -51,8 +52,8 @@ class MapStore {
   /// the file holds what it held before.
   std::int64_t commit(const MapChange& change);
   std::optional<Checkpoint> findCheckpoint(base::SessionId session) const;
-  /// What is committed, and, of a running mapper, the sub-map that is not yet.
-  MapView view(std::shared_ptr<const SubMap> running = nullptr) const;
+  /// What is committed, and, of a running mapper, the sub-map that is not yet, with the edge that leads to it.
+  MapView view(std::shared_ptr<const SubMap> running = nullptr, const std::optional<Edge>& edgeTo = std::nullopt) const;
   /// Brings everything into the one file (no -wal beside it) as far as readers allow.
   void close();
 

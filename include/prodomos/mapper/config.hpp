@@ -6,27 +6,39 @@
 
 namespace prodomos::mapper {
 
-/// When a new sub-map begins (002 §II-A).
+/// What of a log is used, and how.
+struct InputConfig {
+  std::string poses = "auto";  ///< "auto", "odometry", "recorded", or the path of a trajectory file
+  std::string sensors;         ///< labels with commas between; empty: all
+  std::string start;           ///< decimal seconds; empty: from the first
+  std::string end;             ///< decimal seconds; empty: to the last
+  double fps = 30.0;           ///< of RGB-D folders without time stamps
+  double poseGap = 1.0;        ///< seconds; readings farther from any recorded pose are skipped
+};
+
+/// When a new sub-map begins (002 §II-A). Crossed doors join these once they are detected.
 struct SubMapConfig {
-  double maxDistance = 6.0;  ///< metres travelled within one
-  double leastOverlap = 0.35;
-  double overlapStep = 0.5;
+  double maxDistance = 6.0;    ///< metres travelled within
+  double leastOverlap = 0.35;  ///< of a reading's end points with cells the sub-map knows
+  double overlapStep = 0.5;    ///< metres, or radians turned, between two looks at the overlap
 };
 
 struct FloorConfig {
-  double leastHeight = 1.8;
+  double leastHeight = 1.8;  ///< metres between two floors
 };
 
+/// Standard deviations of what an edge says when it comes from odometry.
 struct OdometryNoiseConfig {
   double translationPerMetre = 0.05;
-  double rotationPerRadian = 0.05;
-  double rotationPerMetre = 0.01;
+  double rotationPerMetre = 0.01;   ///< radians
+  double rotationPerRadian = 0.05;  ///< radians
 };
 
 struct MapperConfig {
+  InputConfig input;
   SubMapConfig submap;
   FloorConfig floor;
-  OdometryNoiseConfig odometry;
+  OdometryNoiseConfig odometryNoise;
   map::LayersConfig layers;
 };
 
