@@ -116,6 +116,7 @@ struct Reading {
   base::Time time;
   std::string sensor;  ///< the label of the sensor in its log, for `--sensor`
   ReadingData data;
+  std::string fault{};  ///< where part of it was damaged and left out: one line with file and place; else empty
 };
 
 /// The kind's name in reports: "laser_scan", "odometry", "recorded_pose", "rgbd_frame", "point_cloud", "detections",
