@@ -24,7 +24,7 @@ class SelectedSource final : public SensorSource {
   SourceItem next() override {
     auto item = source_->next();
     if (const auto* reading = std::get_if<Reading>(&item)) {
-      if (const auto* reason = reasonToSkip(*reading)) return Skipped{reason, "", reading->time};
+      if (const auto* reason = reasonToSkip(*reading)) return Skipped{reason, reading->fault, reading->time};
     }
     return item;
   }

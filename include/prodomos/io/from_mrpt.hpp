@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <mrpt/obs/CObservation.h>
-
 #include "prodomos/sensors/source.hpp"
+
+#include <mrpt/obs/CObservation.h>
 
 namespace prodomos::io {
 

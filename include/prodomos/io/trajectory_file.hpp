@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
-#include <vector>
-
 #include "prodomos/base/time.hpp"
 #include "prodomos/geometry/pose.hpp"
+
+#include <filesystem>
+#include <vector>
 
 namespace prodomos::io {
 
@@ -15,8 +15,8 @@ struct TimedPose {
   geometry::Pose3 T_world_body = geometry::Pose3::Identity();
 };
 
-/// `time x y z qx qy qz qw` a line, `#` comments: the format of the TUM tools. Throws base::FileError naming the line where
-/// one is malformed or earlier than the line before.
+/// `time x y z qx qy qz qw` a line, `#` comments: the format of the TUM tools. Throws base::FileError naming the line
+/// where one is malformed or earlier than the line before.
 std::vector<TimedPose> readTrajectory(const std::filesystem::path& path);
 
 }  // namespace prodomos::io

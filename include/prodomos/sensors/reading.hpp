@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "prodomos/base/time.hpp"
+#include "prodomos/geometry/pose.hpp"
+#include "prodomos/sensors/image.hpp"
+
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -12,10 +16,6 @@
 #include <variant>
 #include <vector>
 
-#include "prodomos/base/time.hpp"
-#include "prodomos/geometry/pose.hpp"
-#include "prodomos/sensors/image.hpp"
-
 /// Value types of one reading. Frames: `body` is the robot (x ahead, y left, z up, origin on the floor below it);
 /// `sensor` is a laser or lidar with the same axes; `camera` has the axes of an image (x right, y down, z ahead).
 namespace prodomos::sensors {
@@ -23,10 +23,10 @@ namespace prodomos::sensors {
 /// A fan of ranges in the sensor's x-y-plane. Beam i points to angle firstAngle + i * angleStep.
 struct LaserScan {
   geometry::Pose3 T_body_sensor = geometry::Pose3::Identity();
-  double firstAngle = 0.0;   ///< radians, counter-clockwise from the sensor's x-axis
-  double angleStep = 0.0;    ///< radians, may be negative
-  double maxRange = 0.0;     ///< metres
-  double sweepTime = 0.0;    ///< seconds from the first beam to the last, 0 = at once or not known
+  double firstAngle = 0.0;    ///< radians, counter-clockwise from the sensor's x-axis
+  double angleStep = 0.0;     ///< radians, may be negative
+  double maxRange = 0.0;      ///< metres
+  double sweepTime = 0.0;     ///< seconds from the first beam to the last, 0 = at once or not known
   std::vector<float> ranges;  ///< metres; kNoReturn: nothing within maxRange; kInvalid: the beam says nothing
 
   static constexpr float kNoReturn = std::numeric_limits<float>::infinity();
@@ -116,6 +116,7 @@ struct Reading {
   base::Time time;
   std::string sensor;  ///< the label of the sensor in its log, for `--sensor`
   ReadingData data;
+  std::string fault{};  ///< where part of it was damaged and left out: one line with file and place; else empty
 };
 
 /// The kind's name in reports: "laser_scan", "odometry", "recorded_pose", "rgbd_frame", "point_cloud", "detections",
@@ -125,7 +126,8 @@ std::string_view kindName(const ReadingData& data);
 /// True where the pixel or the point is one of something that moves. Empty: nothing moves.
 using Mask = Image<std::uint8_t>;
 
-/// Body axes of a camera that looks ahead: maps camera coordinates (x right, y down, z ahead) into x ahead, y left, z up.
+/// Body axes of a camera that looks ahead: maps camera coordinates (x right, y down, z ahead) into x ahead, y left, z
+/// up.
 geometry::Pose3 cameraAxesInBody();
 
 }  // namespace prodomos::sensors

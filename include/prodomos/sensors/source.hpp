@@ -2,21 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "prodomos/base/progress.hpp"
+#include "prodomos/sensors/reading.hpp"
+
 #include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "prodomos/base/progress.hpp"
-#include "prodomos/sensors/reading.hpp"
-
 namespace prodomos::sensors {
 
 /// A reading that was there but is not handed on.
 struct Skipped {
-  std::string reason;  ///< short, groups the report: "unsupported CObservationGPS", "sensor not chosen", "unreadable image"
-  std::string fault;   ///< where the log is damaged: one line with file, place, expected, found; else empty
+  std::string
+      reason;  ///< short, groups the report: "unsupported CObservationGPS", "sensor not chosen", "unreadable image"
+  std::string fault;  ///< where the log is damaged: one line with file, place, expected, found; else empty
   base::Time time{};
 };
 
@@ -30,14 +31,14 @@ using SourceItem = std::variant<Reading, Skipped, EndOfLog>;
 /// What is known of a log before its first reading.
 struct SourceInfo {
   std::string path;
-  std::string kind;  ///< "MRPT rawlog", "TUM RGB-D folder", "RGB-D folder", "CARMEN log"
+  std::string kind;                  ///< "MRPT rawlog", "TUM RGB-D folder", "RGB-D folder", "CARMEN log"
   bool hasRecordedPoses = false;     ///< poses worth following come with the log
   std::vector<std::string> remarks;  ///< what a user should know: assumed intrinsics, assumed frame rate
   ClassTable classes;
 };
 
-/// A stream of readings in the order of the log. Memory does not grow with its length. The same log gives the same items
-/// each time, so that an item's running number is a place in the log.
+/// A stream of readings in the order of the log. Memory does not grow with its length. The same log gives the same
+/// items each time, so that an item's running number is a place in the log.
 class SensorSource {
  public:
   virtual ~SensorSource() = default;
