@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prodomos/base/config.hpp"
 
+#include "prodomos/base/error.hpp"
+
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -12,8 +14,6 @@
 #include <optional>
 #include <set>
 #include <sstream>
-
-#include "prodomos/base/error.hpp"
 
 namespace prodomos::base {
 
@@ -56,6 +56,7 @@ class ConfigReader final : public ConfigVisitor {
  public:
   explicit ConfigReader(const ConfigInput& input) {
     if (!input.file.empty()) readFile(input.file);
+    if (!input.text.empty()) readYaml("configuration", input.text);
     for (const auto& assignment : input.assignments) readAssignment(assignment);
   }
 
@@ -86,8 +87,7 @@ class ConfigReader final : public ConfigVisitor {
   void key(std::string_view name, std::string& value, std::string_view) override {
     if (const auto* given = find(name)) value = given->text;
   }
-  void choice(std::string_view name, int& value, std::span<const std::string_view> choices,
-              std::string_view) override {
+  void choice(std::string_view name, int& value, std::span<const std::string_view> choices, std::string_view) override {
     const auto* given = find(name);
     if (given == nullptr) return;
     for (std::size_t i = 0; i < choices.size(); ++i) {
@@ -102,7 +102,8 @@ class ConfigReader final : public ConfigVisitor {
   void finish() {
     for (const auto& [name, given] : given_) {
       if (!known_.contains(name)) {
-        faults_.push_back({given.order, given.place + ": unknown key '" + name + "' (prodomos config prints the known ones)"});
+        faults_.push_back(
+            {given.order, given.place + ": unknown key '" + name + "' (prodomos config prints the known ones)"});
       }
     }
     if (faults_.empty()) return;
@@ -121,14 +122,21 @@ class ConfigReader final : public ConfigVisitor {
 
   void readFile(const std::filesystem::path& file) {
     std::ifstream stream(file);
-    if (!stream) throw UsageError(expectedFound(file.string(), "a YAML configuration file", "none that can be read"));
+    std::stringstream text;
+    if (!stream || std::filesystem::is_directory(file) || !(text << stream.rdbuf())) {
+      throw UsageError(expectedFound(file.string(), "a YAML configuration file", "none that can be read"));
+    }
+    readYaml(file.string(), text.str());
+  }
+
+  void readYaml(const std::string& file, const std::string& text) {
     try {
-      const YAML::Node root = YAML::Load(stream);
+      const YAML::Node root = YAML::Load(text);
       if (root.IsNull()) return;
-      if (!root.IsMap()) throw UsageError(expectedFound(file.string() + ":1", "sections with keys", "something else"));
-      collect(file.string(), root, "");
+      if (!root.IsMap()) throw UsageError(expectedFound(file + ":1", "sections with keys", "something else"));
+      collect(file, root, "");
     } catch (const YAML::Exception& fault) {
-      throw UsageError(file.string() + ":" + std::to_string(fault.mark.line + 1) + ": " + fault.msg);
+      throw UsageError(file + ":" + std::to_string(fault.mark.line + 1) + ": " + fault.msg);
     }
   }
 
@@ -247,12 +255,20 @@ class ConfigWriter final : public ConfigVisitor {
 
 ConfigReading::ConfigReading(const ConfigInput& input) : reader_(std::make_unique<detail::ConfigReader>(input)) {}
 ConfigReading::~ConfigReading() = default;
-ConfigVisitor& ConfigReading::visitor() { return *reader_; }
-void ConfigReading::finish() { reader_->finish(); }
+ConfigVisitor& ConfigReading::visitor() {
+  return *reader_;
+}
+void ConfigReading::finish() {
+  reader_->finish();
+}
 
 ConfigWriting::ConfigWriting(bool explained) : writer_(std::make_unique<detail::ConfigWriter>(explained)) {}
 ConfigWriting::~ConfigWriting() = default;
-ConfigVisitor& ConfigWriting::visitor() { return *writer_; }
-std::string ConfigWriting::text() const { return writer_->text(); }
+ConfigVisitor& ConfigWriting::visitor() {
+  return *writer_;
+}
+std::string ConfigWriting::text() const {
+  return writer_->text();
+}
 
 }  // namespace prodomos::base

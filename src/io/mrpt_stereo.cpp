@@ -80,7 +80,8 @@ sensors::Image<float> depthBySgbm(const RectifiedPair& pair) {
   matcher->compute(grey(pair.left), grey(pair.right), disparity);
 
   sensors::Image<float> depth(disparity.cols, disparity.rows);
-  const double scaledFocal = pair.camera.fx * pair.baseline * cv::StereoMatcher::DISP_SCALE;
+  constexpr int kSubpixels = cv::StereoMatcher::DISP_SCALE;
+  const double scaledFocal = pair.camera.fx * pair.baseline * kSubpixels;
   for (int y = 0; y < depth.height(); ++y) {
     const auto* from = disparity.ptr<std::int16_t>(y);
     auto* to = depth.row(y);

@@ -40,7 +40,7 @@ class Mapper::Impl {
 
   void process(sensors::Reading reading);
   void skip(const sensors::Skipped& skipped);
-  void finish();
+  void finish(const sensors::EndOfLog& end);
   ResumePoint resumePoint() const;
   void restore(std::vector<std::pair<std::int64_t, sensors::Reading>> waiting);
   map::MapView view() const;
@@ -309,7 +309,7 @@ void Mapper::Impl::commit(map::MapChange& change) {
   store_.commit(change);
 }
 
-void Mapper::Impl::finish() {
+void Mapper::Impl::finish(const sensors::EndOfLog& end) {
   placeWaiting(true);
   map::MapChange change;
   const auto last = std::move(running_);
@@ -317,6 +317,7 @@ void Mapper::Impl::finish() {
   session_.state = map::SessionState::kComplete;
   change.events.push_back({session_.end, session_.id, "session_finished", toString(session_.id), "{}"});
   commit(change);
+  if (!end.fault.empty()) report.addFault(end.fault);
 }
 
 void Mapper::Impl::use(const sensors::Reading& reading) {

@@ -47,17 +47,20 @@ std::unique_ptr<sensors::SensorSource> selectInput(std::unique_ptr<sensors::Sens
   return sensors::select(std::move(source), std::move(selection));
 }
 
-std::string replay(sensors::SensorSource& source, Mapper& mapper, const base::ProgressListener& listener) {
+void replay(sensors::SensorSource& source, Mapper& mapper, const base::ProgressListener& listener) {
   goBackTo(mapper.resumePoint(), source, mapper);
   for (;;) {
-    auto item = source.next();
+    auto item = [&] {
+      const auto timing = mapper.times().measure("read");
+      return source.next();
+    }();
     if (auto* reading = std::get_if<sensors::Reading>(&item)) {
       mapper.process(std::move(*reading));
     } else if (const auto* skipped = std::get_if<sensors::Skipped>(&item)) {
       mapper.skip(*skipped);
     } else {
-      mapper.finish();
-      return std::get<sensors::EndOfLog>(item).fault;
+      mapper.finish(std::get<sensors::EndOfLog>(item));
+      return;
     }
     if (listener) listener(source.progress());
   }

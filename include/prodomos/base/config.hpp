@@ -45,9 +45,11 @@ class ConfigVisitor {
                       std::string_view text) = 0;
 };
 
-/// What is read over the defaults: a YAML file (may be empty: none) and `section.key=value` assignments, which win.
+/// What is read over the defaults: a YAML file (may be empty: none) or YAML text, and `section.key=value` assignments,
+/// which win.
 struct ConfigInput {
   std::filesystem::path file;
+  std::string text;
   std::vector<std::string> assignments;
 };
 

@@ -41,8 +41,8 @@ class Mapper {
   void process(sensors::Reading reading);
   /// An item that is no reading: counted.
   void skip(const sensors::Skipped& skipped);
-  /// Places what still waits, finishes the running sub-map and the session.
-  void finish();
+  /// Places what still waits, finishes the running sub-map and the session. A log that ended early is reported.
+  void finish(const sensors::EndOfLog& end = {});
 
   ResumePoint resumePoint() const;
   /// Hands in the waiting items of the resume point again, before anything else.
@@ -51,7 +51,8 @@ class Mapper {
   /// What the map is now, the running sub-map included; for `query` and exporters.
   map::MapView view() const;
   const Report& report() const;
-  const base::StageTimes& times() const;
+  /// Wall seconds by stage; what feeds the mapper may add its own.
+  base::StageTimes& times();
 
  private:
   class Impl;

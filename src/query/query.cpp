@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prodomos/query/query.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace prodomos::query {
+
+namespace {
+
+constexpr double kStandingDistance = 0.8;  // metres in front of the door
+
+/// Where to stand to go through the entity that causes the prediction.
+geometry::Pose2 viewpointOf(const map::MapView& view, const map::Entity& cause) {
+  const auto& submap = view.graph().getNode(cause.submap);
+  const geometry::Pose2 entity = geometry::toPose2(submap.T_map_submap * cause.T_submap_entity);
+  return entity * geometry::Pose2{-kStandingDistance, 0.0, 0.0};
+}
+
+}  // namespace
+
+std::vector<PredictedRoom> predictedRooms(const map::MapView& view, double leastProbability,
+                                          std::optional<Position> from) {
+  const auto start = from ? placeAt(view, *from).submap : std::nullopt;
+  std::vector<PredictedRoom> rooms;
+  for (const auto& prediction : view.predictions()) {
+    if (prediction.state != map::PredictionState::kOpen || prediction.probability < leastProbability) continue;
+    const auto cause = std::ranges::find(view.entities(), prediction.cause, &map::Entity::id);
+    if (cause == view.entities().end() || !view.graph().hasNode(prediction.node)) continue;
+    PredictedRoom room{prediction.node,           prediction.id,
+                       prediction.cause,          view.graph().getNode(prediction.node).floor,
+                       prediction.probability,    prediction.expectedArea,
+                       viewpointOf(view, *cause), std::nullopt};
+    if (start) room.route = view.graph().shortestRoute(*start, cause->submap);
+    rooms.push_back(std::move(room));
+  }
+  std::ranges::stable_sort(rooms, std::greater<>(), &PredictedRoom::probability);
+  return rooms;
+}
+
+PlaceAnswer placeAt(const map::MapView& view, const Position& position) {
+  PlaceAnswer answer;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto id : view.graph().nodes()) {
+    const auto& node = view.graph().getNode(id);
+    if (node.kind == map::SubMapKind::kPredicted) continue;
+    if (position.floor && node.floor && node.floor != position.floor) continue;
+    const geometry::Pose2 at =
+        inverse(geometry::toPose2(node.T_map_submap)) * geometry::Pose2{position.x, position.y, 0};
+    const double distance = std::hypot(at.x, at.y);
+    if (distance >= nearest) continue;
+    const auto grid = view.findLayer<map::OccupancyGrid>(id);
+    if (grid == nullptr) continue;
+    const auto cell = grid->cellAt({at.x, at.y});
+    if (grid->state(cell) == map::CellState::kUnknown) continue;
+    // Several sub-maps may know the spot: the one that began nearest has seen it best.
+    nearest = distance;
+    answer = {node.place, id, node.floor, grid->state(cell), grid->probability(cell)};
+  }
+  return answer;
+}
+
+std::optional<map::Route> routeBetween(const map::MapView& view, const Position& from, const Position& to) {
+  const auto start = placeAt(view, from).submap;
+  const auto goal = placeAt(view, to).submap;
+  if (!start || !goal) return std::nullopt;
+  return view.graph().shortestRoute(*start, *goal);
+}
+
+}  // namespace prodomos::query
