@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the prodomos authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <array>
+#include "prodomos/exporter/exporter.hpp"
 
 #include "exporter/formats.hpp"
-#include "prodomos/exporter/exporter.hpp"
+
+#include <algorithm>
+#include <array>
 
 namespace prodomos::exporter {
 namespace {
@@ -27,7 +28,9 @@ constexpr std::array kExporters = {
 
 }  // namespace
 
-std::span<const Exporter> exporters() { return kExporters; }
+std::span<const Exporter> exporters() {
+  return kExporters;
+}
 
 const Exporter* findExporter(std::string_view format) {
   const auto* const found = std::ranges::find(kExporters, format, &Exporter::format);

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
-
 #include "prodomos/map/map_view.hpp"
+
+#include <filesystem>
 
 /// The writers of all formats, named in the table of exporters.cpp. Each throws base::FileError where it cannot write.
 namespace prodomos::exporter {

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "exporter/write_file.hpp"
 
+#include "prodomos/base/error.hpp"
+
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-
-#include "prodomos/base/error.hpp"
 
 namespace prodomos::exporter {
 
