@@ -24,11 +24,12 @@ struct Panel {
 
   double width() const { return extent_in_map.sizes().x() * scale; }
   double height() const { return extent_in_map.sizes().y() * scale; }
-  Point toPage(const Eigen::Vector2d& point_in_map) const {
+  /// A point of the map, 2D or 3D seen from above.
+  template <typename Derived>
+  Point toPage(const Eigen::MatrixBase<Derived>& point_in_map) const {
     return corner +
            scale * Point(point_in_map.x() - extent_in_map.min().x(), extent_in_map.max().y() - point_in_map.y());
   }
-  Point toPage(const Eigen::Vector3d& point_in_map) const { return toPage(Eigen::Vector2d(point_in_map.head<2>())); }
 };
 
 /// A sub-map on the page. One without a floor stands on the first panel.
