@@ -67,9 +67,9 @@ std::map<std::optional<int>, double> shiftsOfFloors(const map::TopologicalGraph&
 
 void writeDot(const map::MapView& view, const Path& path) {
   const auto& graph = view.graph();
-  std::string text = "// neato -n2 keeps the nodes where they lie: neato -n2 -Tsvg FILE.dot\n";
-  text += "graph prodomos {\n  graph [label=" + inQuotes(logNames(view)) + ", outputorder=edgesfirst];\n" +
-          "  node [shape=circle, fixedsize=true, width=0.35, fontname=\"sans-serif\", fontsize=9];\n";
+  std::string text =
+      "graph prodomos {\n  graph [layout=neato, outputorder=edgesfirst, label=" + inQuotes(logNames(view)) +
+      "];\n  node [shape=circle, fixedsize=true, width=0.35, fontname=\"sans-serif\", fontsize=9];\n";
   const auto shifts = shiftsOfFloors(graph);
   for (const auto id : graph.nodes()) text += nodeLine(graph.getNode(id), shifts.at(graph.getNode(id).floor));
   for (const auto id : graph.edges()) {

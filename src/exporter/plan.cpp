@@ -24,7 +24,8 @@ constexpr double kMostScale = 60.0;    // units a metre: small maps are not blow
 constexpr double kLeastPageWidth = 760.0;
 constexpr double kPngScale = 2.0;  // sharp in print
 
-Eigen::AlignedBox2d extentOf(const map::MapView& view, const Panel& panel) {
+Eigen::AlignedBox2d extentOf(const map::MapView& view, const std::vector<map::TrajectoryPoint>& trajectory,
+                             const Panel& panel) {
   constexpr double kRim = 0.75;  // metres
   Eigen::AlignedBox2d extent;
   const auto box = panel.grid.knownBox();
@@ -34,17 +35,21 @@ Eigen::AlignedBox2d extentOf(const map::MapView& view, const Panel& panel) {
     extent.extend(resolution * Eigen::Vector2d(box.last.x + 1, box.last.y + 1));
   }
   const auto& graph = view.graph();
+  const auto extendTo = [&extent](const Eigen::Vector3d& point) { extent.extend(Eigen::Vector2d(point.head<2>())); };
   for (const auto id : graph.nodes()) {
     const auto& node = graph.getNode(id);
-    if (onFloor(node.floor, panel.floor)) extent.extend(Eigen::Vector2d(node.T_map_submap.translation().head<2>()));
+    if (onFloor(node.floor, panel.floor)) extendTo(node.T_map_submap.translation());
+  }
+  for (const auto& point : trajectory) {
+    const auto* const node = graph.findNode(point.submap);
+    if (node != nullptr && onFloor(node->floor, panel.floor)) extendTo(point.T_map_body.translation());
   }
   for (const auto& prediction : view.predictions()) {
     const auto& node = graph.getNode(prediction.node);
     if (!onFloor(node.floor, panel.floor)) continue;
     for (const auto& area : prediction.areas) {
       for (const auto& corner : area.outline_in_submap) {
-        const Eigen::Vector3d point = node.T_map_submap * Eigen::Vector3d(corner.x(), corner.y(), 0.0);
-        extent.extend(Eigen::Vector2d(point.head<2>()));
+        extendTo(node.T_map_submap * Eigen::Vector3d(corner.x(), corner.y(), 0.0));
       }
     }
   }
@@ -52,11 +57,11 @@ Eigen::AlignedBox2d extentOf(const map::MapView& view, const Panel& panel) {
   return {extent.min().array() - kRim, extent.max().array() + kRim};
 }
 
-std::vector<Panel> panelsOf(const map::MapView& view) {
+std::vector<Panel> panelsOf(const map::MapView& view, const std::vector<map::TrajectoryPoint>& trajectory) {
   std::vector<Panel> panels;
   for (const auto floor : floorsOf(view)) {
     Panel panel{.floor = floor, .grid = map::fuseGrids(view, floor), .extent_in_map = {}};
-    panel.extent_in_map = extentOf(view, panel);
+    panel.extent_in_map = extentOf(view, trajectory, panel);
     panels.push_back(std::move(panel));
   }
   double width = 0.0;
@@ -95,7 +100,8 @@ double nodeRadiusFor(const std::vector<PlacedNode>& nodes) {
 }
 
 PlanContents contentsOf(const map::MapView& view) {
-  PlanContents plan{.view = view, .panels = panelsOf(view), .nodes = {}};
+  PlanContents plan{.view = view, .trajectory = view.trajectory(), .panels = {}, .nodes = {}};
+  plan.panels = panelsOf(view, plan.trajectory);
   for (const auto id : view.graph().nodes()) {
     const auto& node = view.graph().getNode(id);
     const auto panel = std::ranges::find_if(plan.panels, [&](const Panel& p) { return onFloor(node.floor, p.floor); });

@@ -42,6 +42,7 @@ struct PlacedNode {
 /// What the parts of the plan are drawn from.
 struct PlanContents {
   const map::MapView& view;
+  std::vector<map::TrajectoryPoint> trajectory;
   std::vector<Panel> panels;
   std::vector<PlacedNode> nodes;  ///< ascending
   double nodeRadius = 8.0;

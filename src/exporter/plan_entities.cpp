@@ -85,13 +85,12 @@ struct Symbol {
     return shapes;
   }
 
-  /// Shoulders, head, and where the person faces.
+  /// A head, and a stroke to where the person faces.
   std::vector<Shape> operator()(const map::Human& /*human*/) const {
-    const double radius = std::max(3.0, 0.22 * scale());
-    const Style body{.fill = kHumanColor, .stroke = kFreeColor, .width = 1.0, .dashes = {}};
-    const double metres = radius / scale();
-    return {line({{0, 1.4 * metres}, {2.1 * metres, 0}, {0, -1.4 * metres}}, body, true),
-            Circle{.centre = at(0, 0), .radius = radius, .style = body, .tip = {}}};
+    const double radius = std::max(3.0, 0.2 * scale());
+    const Style head{.fill = kHumanColor, .stroke = kFreeColor, .width = 1.0, .dashes = {}};
+    return {line({{0, 0}, {2.0 * radius / scale(), 0}}, stroked(kHumanColor, 0.5 * radius)),
+            Circle{.centre = at(0, 0), .radius = radius, .style = head, .tip = {}}};
   }
 
   std::vector<Shape> operator()(const map::ObjectBox& object) const { return {box(object.size, kHumanColor)}; }

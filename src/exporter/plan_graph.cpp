@@ -5,6 +5,7 @@
 #include "exporter/plan.hpp"
 #include "exporter/text.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace prodomos::exporter {
@@ -36,7 +37,7 @@ class LabelPlacer {
   /// The base line's start for text beside a circle; none where all around is crowded.
   std::optional<Point> place(const PlacedNode& placed, const std::string& text, double size) {
     const Point extent(textWidth(text, size), size);
-    const double gap = plan_.nodeRadius + 2.0;
+    const double gap = plan_.nodeRadius + 3.5;
     const std::array<Point, 8> lowerLeft = {{{gap, 0.35 * size},
                                              {-gap - extent.x(), 0.35 * size},
                                              {-extent.x() / 2, -gap},
@@ -97,6 +98,7 @@ Style predictedNodeStyle() {
 }
 
 Group drawEdges(const PlanContents& plan) {
+  const double thin = std::clamp(plan.nodeRadius / 9.0, 0.6, 1.0);  // where nodes are small, edges are thin
   Group group{"edges", {}};
   for (const auto id : plan.view.graph().edges()) {
     const auto& edge = plan.view.graph().getEdge(id);
@@ -104,6 +106,11 @@ Group drawEdges(const PlanContents& plan) {
     const bool predicted = plan.getNode(edge.from).node.kind == map::SubMapKind::kPredicted ||
                            plan.getNode(edge.to).node.kind == map::SubMapKind::kPredicted;
     if (predicted) style = {.fill = {}, .stroke = kPredictedColor, .width = 1.6, .dashes = {4.0, 4.0}};
+    style.width *= thin;
+    if (plan.getNode(edge.from).panel != plan.getNode(edge.to).panel) {  // it runs over things it has no part in
+      style.width *= 0.6;
+      style.stroke = withAlpha(*style.stroke, 0.5);
+    }
     group.shapes.emplace_back(Line{.points = {plan.getNode(edge.from).at, plan.getNode(edge.to).at},
                                    .style = style,
                                    .tip = toString(id) + ", " + std::string(toString(edge.kind))});

@@ -114,7 +114,7 @@ Group drawTrajectory(const PlanContents& plan) {
   };
   const Panel* panel = nullptr;
   base::SessionId session;
-  for (const auto& point : plan.view.trajectory()) {
+  for (const auto& point : plan.trajectory) {
     if (!plan.view.graph().hasNode(point.submap)) continue;
     const auto& placed = plan.getNode(point.submap);
     if (placed.panel != panel || point.session != session) finish();

@@ -138,7 +138,7 @@ class SampleMap {
         entity(2, 2, geometry::toPose3({2.875, 0, 0}, 1.0), closed),
         entity(3, 1, geometry::toPose3({-1.9, 0, 2 * kQuarter}, 1.5), stairs),
         entity(4, 3, geometry::toPose3({1.0, 1.0, 2.0}), map::Human{}),
-        entity(5, 3, geometry::toPose3({1.2, -1.5, 0}, 0.5), map::Cuboid{.classId = 1, .size = {0.5, 1.0, 1.0}}),
+        entity(5, 3, geometry::toPose3({1.0, -0.95, 0}, 0.5), map::Cuboid{.classId = 1, .size = {0.5, 1.0, 1.0}}),
     };
   }
 
@@ -157,17 +157,24 @@ class SampleMap {
   }
 
   static void addTrajectory(map::MapChange& change) {
-    constexpr int kPointsInSubMap = 20;
-    for (const auto& node : change.nodes) {
-      if (node.kind == map::SubMapKind::kPredicted) continue;
-      for (int i = 0; i < kPointsInSubMap; ++i) {
-        const double along = 0.1 * i;
-        change.trajectory.push_back(
-            {.session = {1},
-             .time = node.begin + base::fromSeconds(0.5 * i),
-             .submap = node.id,
-             .T_travel_body = node.T_travel_submap * geometry::toPose3({along, 0.2 * along * along, 0.0}),
-             .T_map_body = {}});
+    const std::vector<std::pair<int, std::vector<Eigen::Vector2d>>> ways_in_map = {
+        {1, {{0, 0}, {2, 0.2}, {4, -0.2}, {5, 0}}},
+        {2, {{5, 0}, {5.45, 0.5}, {5.5, 1.5}, {5, 2.75}}},
+        {3, {{5, 2.75}, {5.2, 4}, {4.2, 4.2}, {4, 3}, {5.4, 1.6}, {5.2, 0.3}, {0, -0.3}, {-4, 0}}},
+        {4, {{-4.5, 0}, {-2, 0.3}, {0.5, 0}}},
+        {5, {{0.5, 0}, {2.5, 0.1}}}};
+    for (const auto& [id, way] : ways_in_map) {
+      const auto& node = change.nodes.at(static_cast<std::size_t>(id - 1));
+      const double height = node.T_map_submap.translation().z();
+      double second = 0.0;
+      for (const auto& position : way) {
+        const auto T_map_body = geometry::toPose3({position.x(), position.y(), 0.0}, height);
+        change.trajectory.push_back({.session = {1},
+                                     .time = node.begin + base::fromSeconds(second),
+                                     .submap = node.id,
+                                     .T_travel_body = node.T_travel_submap * node.T_map_submap.inverse() * T_map_body,
+                                     .T_map_body = {}});
+        second += 1.0;
       }
     }
   }
