@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "prodomos/map/map_view.hpp"
+
 #include <filesystem>
 #include <span>
 #include <string_view>
 
-#include "prodomos/map/map_view.hpp"
-
 namespace prodomos::exporter {
 
-/// A format that maps are written in. The table in src/exporter/exporters.cpp lists them all; a new one is a function and
-/// a line there.
+/// A format that maps are written in. The table in src/exporter/exporters.cpp lists them all; a new one is a function
+/// and a line there.
 struct Exporter {
   std::string_view format;     ///< "html", as in `prodomos export MAP html`
   std::string_view extension;  ///< of the default output, ".html"; empty: a folder

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "prodomos/map/map_view.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Questions that several formats ask of a map.
+namespace prodomos::exporter {
+
+/// The floors that a format with one plan a floor writes, ascending; a single "none" where the map knows no floors.
+std::vector<std::optional<int>> floorsOf(const map::MapView& view);
+/// Whether something with this floor is drawn on that plan: what has no floor is drawn on all.
+bool onFloor(std::optional<int> floorOfThing, std::optional<int> plan);
+
+/// The names of the logs, "fr079.rawlog + intel.rawlog"; "prodomos map" where there are no sessions.
+std::string logNames(const map::MapView& view);
+
+geometry::Pose3 poseInMap(const map::MapView& view, const map::Entity& entity);
+/// The bet that a predicted node stands for; null where there is none.
+const map::Prediction* predictionOf(const map::MapView& view, base::SubMapId node);
+
+/// The graph's observed nodes, and the edges between them, ascending.
+std::vector<map::Node> observedNodes(const map::MapView& view);
+std::vector<map::Edge> observedEdges(const map::MapView& view);
+
+}  // namespace prodomos::exporter

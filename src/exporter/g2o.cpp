@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "exporter/contents.hpp"
+#include "exporter/formats.hpp"
+#include "exporter/text.hpp"
+#include "exporter/write_file.hpp"
+
+#include <string>
+
+namespace prodomos::exporter {
+namespace {
+
+constexpr int kDecimals = 9;
+
+std::string poseColumns(const geometry::Pose3& pose) {
+  const Eigen::Vector3d t = pose.translation();
+  Eigen::Quaterniond q(pose.linear());
+  q.normalize();
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  std::string columns;
+  for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) columns += ' ' + fixed(value, kDecimals);
+  return columns;
+}
+
+/// Ours speaks of deviations in the axes of `from`; g2o's of deviations of the measured pose in its own, those of `to`.
+map::Matrix6 informationInTo(const map::Edge& edge) {
+  map::Matrix6 axes_from_to = map::Matrix6::Zero();
+  axes_from_to.topLeftCorner<3, 3>() = edge.T_from_to.linear();
+  axes_from_to.bottomRightCorner<3, 3>() = edge.T_from_to.linear();
+  return axes_from_to.transpose() * edge.information * axes_from_to;
+}
+
+}  // namespace
+
+void writeG2o(const map::MapView& view, const Path& path) {
+  std::string text;
+  for (const auto& node : observedNodes(view)) {
+    text += "VERTEX_SE3:QUAT " + std::to_string(node.id.value) + poseColumns(node.T_map_submap) + '\n';
+  }
+  for (const auto& edge : observedEdges(view)) {
+    text += "EDGE_SE3:QUAT " + std::to_string(edge.from.value) + ' ' + std::to_string(edge.to.value) +
+            poseColumns(edge.T_from_to);
+    const map::Matrix6 information = informationInTo(edge);
+    for (int row = 0; row < 6; ++row) {
+      for (int column = row; column < 6; ++column) text += ' ' + fixed(information(row, column), kDecimals);
+    }
+    text += '\n';
+  }
+  writeFile(path, text);
+}
+
+}  // namespace prodomos::exporter

@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "exporter/contents.hpp"
+#include "exporter/palette.hpp"
+#include "exporter/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace prodomos::exporter {
+namespace {
+
+Style stroked(map::Rgba color, double width, std::vector<double> dashes = {}) {
+  return {.fill = {}, .stroke = color, .width = width, .dashes = std::move(dashes)};
+}
+
+/// Draws each class as architects do, as far as they have a sign for it.
+struct Symbol {
+  const Eigen::Affine2d& M_page_entity;
+
+  Point at(double x, double y) const { return M_page_entity * Point(x, y); }
+  double scale() const { return M_page_entity.linear().col(0).norm(); }
+  Line line(std::vector<Point> points, Style style, bool closed = false) const {
+    for (auto& point : points) point = M_page_entity * point;
+    return {.points = std::move(points), .closed = closed, .style = std::move(style), .tip = {}};
+  }
+  Line box(const Eigen::Vector3d& size, map::Rgba color) const {
+    const double x = size.x() / 2;
+    const double y = size.y() / 2;
+    return line({{-x, -y}, {x, -y}, {x, y}, {-x, y}},
+                {.fill = withAlpha(color, 0.2), .stroke = color, .width = 1.0, .dashes = {}}, true);
+  }
+
+  /// Leaf and swing; a doorway without a leaf is a threshold between two jambs.
+  std::vector<Shape> operator()(const map::Door& door) const {
+    const double half = door.width / 2;
+    const Line threshold = line({{0, -half}, {0, half}}, stroked(withAlpha(kFreeColor, 0.9), 4.0));
+    std::vector<Shape> shapes = {threshold};
+    for (const double jamb : {-half, half}) {
+      shapes.emplace_back(Circle{
+          .centre = at(0, jamb), .radius = 1.8, .style = {.fill = kDoorColor, .stroke = {}, .dashes = {}}, .tip = {}});
+    }
+    if (!door.hasLeaf) {
+      shapes.emplace_back(line({{0, -half}, {0, half}}, stroked(kDoorColor, 1.2, {1.0, 3.0})));
+      return shapes;
+    }
+    const double swing = door.state == map::DoorState::kOpen   ? std::numbers::pi / 2
+                         : door.state == map::DoorState::kAjar ? std::numbers::pi / 5
+                                                               : 0.0;
+    const double hinge = door.hingeSide == map::HingeSide::kRight ? -half : half;
+    const double side = hinge < 0 ? 1.0 : -1.0;  // from the hinge to the other jamb, along y
+    const auto leafEnd = [&](double angle) {
+      return Point(door.width * std::sin(angle), hinge + side * door.width * std::cos(angle));
+    };
+    shapes.emplace_back(line({{0, hinge}, leafEnd(swing)}, stroked(kDoorColor, 2.6)));
+    std::vector<Point> arc;
+    constexpr int kSteps = 10;
+    for (int step = 0; step <= kSteps; ++step) arc.push_back(leafEnd(step * std::numbers::pi / 2 / kSteps));
+    if (door.hingeSide != map::HingeSide::kUnknown) shapes.emplace_back(line(arc, stroked(kDoorColor, 0.7)));
+    return shapes;
+  }
+
+  /// The flight with its treads, and an arrow uphill.
+  std::vector<Shape> operator()(const map::Staircase& stairs) const {
+    constexpr double kUsualDepth = 0.28;
+    constexpr double kUsualHeight = 0.17;
+    const double depth = stairs.stepDepth > 0 ? stairs.stepDepth : kUsualDepth;
+    const double rise = stairs.stepHeight > 0 ? stairs.stepHeight : kUsualHeight;
+    const int steps =
+        stairs.stepCount > 0 ? stairs.stepCount : std::clamp(static_cast<int>(std::abs(stairs.height) / rise), 3, 30);
+    const double x = steps * depth / 2;
+    const double y = stairs.stepWidth / 2;
+    std::vector<Shape> shapes = {line({{-x, -y}, {x, -y}, {x, y}, {-x, y}},
+                                      {.fill = withAlpha(kStairsColor, 0.12), .stroke = kStairsColor, .dashes = {}},
+                                      true)};
+    for (int step = 1; step < steps; ++step) {
+      const double edge = -x + step * depth;
+      shapes.emplace_back(line({{edge, -y}, {edge, y}}, stroked(withAlpha(kStairsColor, 0.6), 0.7)));
+    }
+    const double tip = std::min(0.4, x / 2);
+    shapes.emplace_back(line({{-0.85 * x, 0}, {0.85 * x, 0}}, stroked(kStairsColor, 1.6)));
+    shapes.emplace_back(
+        line({{0.85 * x - tip, 0.6 * tip}, {0.85 * x, 0}, {0.85 * x - tip, -0.6 * tip}}, stroked(kStairsColor, 1.6)));
+    return shapes;
+  }
+
+  /// A head, and a stroke to where the person faces.
+  std::vector<Shape> operator()(const map::Human& /*human*/) const {
+    const double radius = std::max(3.0, 0.2 * scale());
+    const Style head{.fill = kHumanColor, .stroke = kFreeColor, .width = 1.0, .dashes = {}};
+    return {line({{0, 0}, {2.0 * radius / scale(), 0}}, stroked(kHumanColor, 0.5 * radius)),
+            Circle{.centre = at(0, 0), .radius = radius, .style = head, .tip = {}}};
+  }
+
+  std::vector<Shape> operator()(const map::ObjectBox& object) const { return {box(object.size, kHumanColor)}; }
+
+  std::vector<Shape> operator()(const map::Cuboid& cuboid) const { return {box(cuboid.size, kObjectColor)}; }
+
+  /// Seen from above by its outline; where it is steep, that is all but a line.
+  std::vector<Shape> operator()(const map::PlanePatch& patch) const {
+    return {line(patch.outline_in_patch, stroked(withAlpha(kObjectColor, 0.7), 0.8), true)};
+  }
+};
+
+/// The entity's x-y-plane as it looks from above.
+Eigen::Affine2d pageOf(const Panel& panel, const geometry::Pose3& T_map_entity) {
+  Eigen::Affine2d M_page_entity = Eigen::Affine2d::Identity();
+  M_page_entity.linear() = panel.scale * T_map_entity.linear().topLeftCorner<2, 2>();
+  M_page_entity.linear().row(1) *= -1.0;  // y points down on the page
+  M_page_entity.translation() = panel.toPage(T_map_entity.translation());
+  return M_page_entity;
+}
+
+}  // namespace
+
+std::vector<Shape> entitySymbol(const map::EntityAttributes& attributes, const Eigen::Affine2d& M_page_entity) {
+  return std::visit(Symbol{M_page_entity}, attributes);
+}
+
+Group drawEntities(const PlanContents& plan) {
+  Group group{"entities", {}};
+  for (const auto& entity : plan.view.entities()) {
+    const auto T_map_entity = poseInMap(plan.view, entity);
+    auto symbol = entitySymbol(entity.attributes, pageOf(*plan.getNode(entity.submap).panel, T_map_entity));
+    std::ranges::move(symbol, std::back_inserter(group.shapes));
+  }
+  return group;
+}
+
+}  // namespace prodomos::exporter

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "exporter/contents.hpp"
+#include "exporter/palette.hpp"
+#include "exporter/plan.hpp"
+#include "exporter/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace prodomos::exporter {
+namespace {
+
+/// Of a block of cells: a wall stays visible however small the plan.
+map::CellState stateOfBlock(const map::OccupancyGrid& grid, geometry::CellIndex first, int size) {
+  auto state = map::CellState::kUnknown;
+  for (int y = first.y; y < first.y + size; ++y) {
+    for (int x = first.x; x < first.x + size; ++x) state = std::max(state, grid.state({x, y}));
+  }
+  return state;
+}
+static_assert(map::CellState::kUnknown < map::CellState::kFree && map::CellState::kFree < map::CellState::kOccupied);
+
+map::Rgba colorOf(map::CellState state) {
+  switch (state) {
+    case map::CellState::kFree:
+      return kFreeColor;
+    case map::CellState::kOccupied:
+      return kOccupiedColor;
+    case map::CellState::kUnknown:
+      break;
+  }
+  return kUnknownColor;
+}
+
+Line frameOf(const Panel& panel, Style style) {
+  const Point across(panel.width(), 0.0);
+  const Point down(0.0, panel.height());
+  return {.points = {panel.corner, panel.corner + across, panel.corner + across + down, panel.corner + down},
+          .closed = true,
+          .style = std::move(style),
+          .tip = {}};
+}
+
+/// One pixel a block of cells, blocks being as large as half a unit of the page: finer would not be seen.
+std::optional<Raster> gridRaster(const Panel& panel) {
+  const auto box = panel.grid.knownBox();
+  if (box.empty()) return std::nullopt;
+  const double resolution = panel.grid.resolution();
+  const int block = std::max(1, static_cast<int>(std::floor(0.5 / (resolution * panel.scale))));
+  const int width = (box.width() + block - 1) / block;
+  const int height = (box.height() + block - 1) / block;
+  sensors::Image<map::Rgba> pixels(width, height);
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column) {
+      const geometry::CellIndex first{box.first.x + column * block, box.first.y + (height - 1 - row) * block};
+      pixels(column, row) = colorOf(stateOfBlock(panel.grid, first, block));
+    }
+  }
+  const Eigen::Vector2d corner_in_map(box.first.x * resolution, (box.first.y + height * block) * resolution);
+  return Raster{panel.toPage(corner_in_map), block * resolution * panel.scale, pixels};
+}
+
+std::string nameOf(const map::Prediction& prediction) {
+  return toString(prediction.id) + ": " + std::string(toString(prediction.state)) + ", probability " +
+         fixed(prediction.probability, 2);
+}
+
+}  // namespace
+
+Group drawGrids(const PlanContents& plan) {
+  Group group{"grid", {}};
+  for (const auto& panel : plan.panels) {
+    group.shapes.emplace_back(frameOf(panel, {.fill = kUnknownColor, .stroke = {}, .dashes = {}}));
+    if (const auto raster = gridRaster(panel)) group.shapes.emplace_back(*raster);
+    group.shapes.emplace_back(
+        frameOf(panel, {.fill = {}, .stroke = withAlpha(kMutedColor, 0.5), .width = 0.6, .dashes = {}}));
+  }
+  return group;
+}
+
+Group drawPredictedAreas(const PlanContents& plan) {
+  Group group{"predicted-areas", {}};
+  for (const auto& prediction : plan.view.predictions()) {
+    if (prediction.state != map::PredictionState::kOpen) continue;  // of the others, one has seen what is there
+    const auto& placed = plan.getNode(prediction.node);
+    for (const auto& area : prediction.areas) {
+      Line outline{.points = {},
+                   .closed = true,
+                   .style = {.fill = withAlpha(kPredictedColor, 0.13),
+                             .stroke = kPredictedColor,
+                             .width = 1.1,
+                             .dashes = {5.0, 3.0}},
+                   .tip = nameOf(prediction) + ", threshold " + brief(area.threshold)};
+      for (const auto& corner : area.outline_in_submap) {
+        const Eigen::Vector3d point = placed.node.T_map_submap * Eigen::Vector3d(corner.x(), corner.y(), 0.0);
+        outline.points.push_back(placed.panel->toPage(point));
+      }
+      if (outline.points.size() > 2) group.shapes.emplace_back(std::move(outline));
+    }
+  }
+  return group;
+}
+
+Group drawTrajectory(const PlanContents& plan) {
+  constexpr double kLeastStep = 0.6;  // units of the page; less would not be seen
+  Group group{"trajectory", {}};
+  Line line{.points = {},
+            .style = {.fill = {}, .stroke = withAlpha(kTrajectoryColor, 0.75), .width = 1.0, .dashes = {}},
+            .tip = {}};
+  const auto finish = [&] {
+    if (line.points.size() > 1) group.shapes.emplace_back(line);
+    line.points.clear();
+  };
+  const Panel* panel = nullptr;
+  base::SessionId session;
+  for (const auto& point : plan.trajectory) {
+    if (!plan.view.graph().hasNode(point.submap)) continue;
+    const auto& placed = plan.getNode(point.submap);
+    if (placed.panel != panel || point.session != session) finish();
+    panel = placed.panel;
+    session = point.session;
+    const Point at = panel->toPage(point.T_map_body.translation());
+    if (line.points.empty() || (at - line.points.back()).norm() >= kLeastStep) line.points.push_back(at);
+  }
+  finish();
+  return group;
+}
+
+}  // namespace prodomos::exporter
