@@ -140,10 +140,9 @@ void addQuery(CLI::App& program) {
   const auto add = [&](const char* name, const char* text, int positions, void (*answer)(const QueryOptions&)) {
     auto* question = command->add_subcommand(name, text);
     if (positions > 0) {
-      question->add_option("X,Y[,FLOOR]", options->positions, "metres in the map frame")
+      question->add_option("POSITION", options->positions, "X,Y or X,Y,FLOOR: metres in the map frame")
           ->expected(positions)
-          ->required()
-          ->type_name("");
+          ->required();
     }
     question->add_flag("--json", options->json, "as JSON (docs/json.md)");
     question->callback([options, answer] { answer(*options); });

@@ -19,11 +19,16 @@ int cellOf(std::int32_t units) {
   return units >> 8;
 }
 
+// Without SSE 4.1, which the oldest machines lack, std::floor is a call.
 int floorCell(double units) {
-  return static_cast<int>(std::floor(units / kUnitsPerCell));
+  const double cells = units / kUnitsPerCell;
+  const int cut = static_cast<int>(cells);
+  return cells < cut ? cut - 1 : cut;
 }
 int lastCellBefore(double units) {
-  return static_cast<int>(std::ceil(units / kUnitsPerCell)) - 1;
+  const double cells = units / kUnitsPerCell;
+  const int cut = static_cast<int>(cells);
+  return cells > cut ? cut : cut - 1;
 }
 
 }  // namespace
@@ -84,17 +89,16 @@ RayFan::Interval RayFan::crossed(const Ray& ray, int row) const {
                     : Interval{floorCell(above), lastCellBefore(below)};
 }
 
-/// Up to this row no cell fits between two neighbouring rays that both pass the whole row.
-int RayFan::lastRowWithoutGap(const Ray& right, const Ray& left) const {
-  const int lastWhole = std::min(right.endRow, left.endRow) - 1;
+/// Up to this row no cell fits between two neighbouring rays that both pass the whole row; beyond it, they share none.
+int RayFan::lastRowWithoutGap(const Ray& right, const Ray& left, int lastRow) const {
   const double spread = right.slope - left.slope;
-  if (spread <= 0.0) return lastWhole;
+  if (spread <= 0.0) return lastRow;
   // The gap in a row is at its narrowest the distance between the right ray's leftmost and the left ray's rightmost
   // point; lean is what the rays' slant within the row takes from it.
   const double lean = std::max({0.0, left.slope, -right.slope});
-  const double height = kUnitsPerCell * (1.0 + lean) / spread * (1.0 - 1e-9);  // of the row's lower border
+  const double height = kUnitsPerCell * (1.0 + lean) / spread;  // of the row's lower border
   const double row = (height - rise_) / kUnitsPerCell + 1.0;
-  return row <= lastWhole ? static_cast<int>(std::ceil(row)) - 1 : lastWhole;
+  return row < lastRow ? std::max(0, static_cast<int>(row)) : lastRow;
 }
 
 /// Scans come sorted one way or the other, at most begun in the middle.
@@ -114,24 +118,35 @@ void RayFan::sweepUpwards(std::vector<Ray>& rays, bool mirrored) {
   if (rays.empty()) return;
   sortFromRightToLeft(rays);
 
-  const int count = static_cast<int>(rays.size());
+  const int lastRow = scheduleSplits(rays);
+  runs_.assign(1, {0, static_cast<int>(rays.size()) - 1});
+  for (int row = 1; row <= lastRow && !runs_.empty(); ++row) {
+    splitRuns(row);
+    emitRow(rays, row, mirrored);
+  }
+  for (const auto& ray : rays) walkAlone(ray, mirrored);
+}
+
+/// Finds the row after which each two neighbours part, and from which on each ray is alone. Returns the last row of all.
+int RayFan::scheduleSplits(std::vector<Ray>& rays) {
   int lastRow = 0;
   for (const auto& ray : rays) lastRow = std::max(lastRow, ray.endRow);
   expiring_.assign(static_cast<std::size_t>(lastRow) + 1, -1);
   nextExpiring_.resize(rays.size());
-  for (int i = count - 2; i >= 0; --i) {
-    const auto pair = static_cast<std::size_t>(i);
-    const int row = std::max(0, lastRowWithoutGap(rays[pair], rays[pair + 1]));
+  for (std::size_t pair = rays.size() - 1; pair-- > 0;) {
+    auto& right = rays[pair];
+    auto& left = rays[pair + 1];
+    // The bound is rounded, so the row itself counts to both: no run over it, and not yet alone.
+    const int bound = lastRowWithoutGap(right, left, lastRow);
+    right.aloneFrom = std::max(right.aloneFrom, bound + 2);
+    left.aloneFrom = std::max(left.aloneFrom, bound + 2);
+    const int row = std::clamp(std::min(right.endRow, left.endRow) - 1, 0, std::max(0, bound - 1));
     auto& first = expiring_[static_cast<std::size_t>(row)];
     nextExpiring_[pair] = first;
-    first = i;
+    first = static_cast<int>(pair);
   }
-
-  runs_.assign(1, {0, count - 1});
-  for (int row = 1; row <= lastRow; ++row) {
-    splitRuns(row);
-    emitRow(rays, row, mirrored);
-  }
+  for (auto& ray : rays) ray.aloneFrom = std::max(ray.aloneFrom, 1);
+  return lastRow;
 }
 
 /// Splits the runs between the pairs whose last row without a gap was the row before.
@@ -155,7 +170,7 @@ void RayFan::emitRow(const std::vector<Ray>& rays, int row, bool mirrored) {
   for (const auto& run : runs_) {
     const auto& right = rays[static_cast<std::size_t>(run.first)];
     if (run.first == run.last) {
-      if (right.endRow < row) continue;
+      if (right.endRow < row || right.aloneFrom <= row) continue;
       intervals_.push_back(crossed(right, row));
     } else {
       const auto& left = rays[static_cast<std::size_t>(run.last)];
@@ -177,6 +192,42 @@ void RayFan::emitRow(const std::vector<Ray>& rays, int row, bool mirrored) {
     }
     spans_.push_back(span);
   }
+}
+
+/// The rest of a ray, from the row on from which it shares no cell with others. Crossings in whole numbers, step by step.
+void RayFan::walkAlone(const Ray& ray, bool mirrored) {
+  if (ray.aloneFrom > ray.endRow) return;
+  const auto dx = static_cast<std::int64_t>(ray.dx);
+  const auto dy = static_cast<std::int64_t>(ray.dy);
+  const auto floorDivision = [dy](std::int64_t number) {
+    const std::int64_t quotient = number / dy;
+    return number % dy < 0 ? quotient - 1 : quotient;
+  };
+  // The crossing of the border below the row lies at x + rest / dy units.
+  const auto below = static_cast<std::int64_t>(rise_) + (ray.aloneFrom - 1) * std::int64_t{kUnitsPerCell};
+  std::int64_t x = floorDivision(dx * below);
+  std::int64_t rest = dx * below - x * dy;
+  x += originX_;
+  const std::int64_t step = floorDivision(dx * kUnitsPerCell);
+  const std::int64_t restStep = dx * kUnitsPerCell - step * dy;
+
+  const int sign = mirrored ? -1 : 1;
+  int cell = static_cast<int>(x >> 8);
+  int cellBefore = (x & 0xFF) == 0 && rest == 0 ? cell - 1 : cell;  // seen from the left of a corner
+  for (int row = ray.aloneFrom; row < ray.endRow; ++row) {
+    const int from = cell;
+    const int fromBefore = cellBefore;
+    x += step;
+    rest += restStep;
+    const bool carry = rest >= dy;
+    x += carry ? 1 : 0;
+    rest -= carry ? dy : 0;
+    cell = static_cast<int>(x >> 8);
+    cellBefore = (x & 0xFF) == 0 && rest == 0 ? cell - 1 : cell;
+    const bool right = dx > 0;
+    spans_.push_back({originRow_ + sign * row, right ? from : cell, right ? cellBefore : fromBefore});
+  }
+  spans_.push_back({originRow_ + sign * ray.endRow, dx > 0 ? cell : ray.endCell, dx > 0 ? ray.endCell : cellBefore});
 }
 
 }  // namespace prodomos::geometry

@@ -8,6 +8,7 @@
 #include "io/text_fields.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <cmath>
 #include <optional>
 

@@ -101,13 +101,22 @@ void OccupancyGrid::insert(const Eigen::Vector2d& origin, std::span<const Beam> 
   if (ends_.empty()) return;
   grow(touched);
 
+  const auto missed = [low = low_, miss = miss_](Cell cell) {
+    const Cell before = cell == kUnknownCell ? Cell{0} : cell;
+    return std::max<Cell>(static_cast<Cell>(before + miss), low);
+  };
   // A cell with an end point counts as hit alone: its value is kept aside while the beams pass.
   for (auto& hit : hits_) hit.before = row(hit.cell.y)[hit.cell.x - box_.first.x];
   for (const auto& span : fan_.trace(start, ends_)) {
     auto* cells = row(span.y) - box_.first.x;
-    for (int x = span.first; x <= span.last; ++x) {
-      const Cell before = cells[x] == kUnknownCell ? Cell{0} : cells[x];
-      cells[x] = std::max<Cell>(static_cast<Cell>(before + miss_), low_);
+    if (span.last - span.first <= 1) {
+      // One cell or two, as chance will have it: without a branch on which. A second time, the cell is only put back.
+      const Cell first = missed(cells[span.first]);
+      const Cell last = span.last == span.first ? first : missed(cells[span.last]);
+      cells[span.first] = first;
+      cells[span.last] = last;
+    } else {
+      for (int x = span.first; x <= span.last; ++x) cells[x] = missed(cells[x]);
     }
   }
   for (const auto& hit : hits_) {
@@ -200,8 +209,7 @@ void OccupancyGrid::save(base::ByteWriter& out) const {
       << config_.heightBand.least << config_.heightBand.most << known.first.x << known.first.y << known.last.x
       << known.last.y;
   for (int y = known.first.y; y <= known.last.y; ++y) {
-    const auto* cells = row(y) - box_.first.x;
-    for (int x = known.first.x; x <= known.last.x; ++x) out << cells[x];
+    out.append(row(y) + (known.first.x - box_.first.x), static_cast<std::size_t>(known.width()) * sizeof(Cell));
   }
 }
 
@@ -218,7 +226,7 @@ void OccupancyGrid::load(base::ByteReader& in, int version) {
   *this = OccupancyGrid(config);
   box_ = box;
   cells_.resize(cells);
-  for (auto& cell : cells_) in >> cell;
+  in.take(cells_.data(), cells * sizeof(Cell));
 }
 
 Drawing OccupancyGrid::draw() const {

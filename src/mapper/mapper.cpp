@@ -405,9 +405,7 @@ void Mapper::process(sensors::Reading reading) {
 void Mapper::skip(const sensors::Skipped& skipped) {
   impl_->skip(skipped);
 }
-void Mapper::finish() {
-  impl_->finish();
-}
+void Mapper::finish(const sensors::EndOfLog& end) { impl_->finish(end); }
 ResumePoint Mapper::resumePoint() const {
   return impl_->resumePoint();
 }
@@ -420,8 +418,6 @@ map::MapView Mapper::view() const {
 const Report& Mapper::report() const {
   return impl_->report;
 }
-const base::StageTimes& Mapper::times() const {
-  return impl_->times;
-}
+base::StageTimes& Mapper::times() { return impl_->times; }
 
 }  // namespace prodomos::mapper

@@ -39,16 +39,18 @@ class ByteWriter {
     return *this;
   }
 
-  const std::vector<std::byte>& bytes() const { return bytes_; }
-  std::vector<std::byte> take() { return std::move(bytes_); }
-
- private:
+  /// As they are, without a length.
   void append(const void* data, std::size_t size) {
     if (size == 0) return;
     const auto at = bytes_.size();
     bytes_.resize(at + size);
     std::memcpy(bytes_.data() + at, data, size);
   }
+
+  const std::vector<std::byte>& bytes() const { return bytes_; }
+  std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
   std::vector<std::byte> bytes_;
 };
 
@@ -82,14 +84,15 @@ class ByteReader {
     return value;
   }
 
-  std::size_t left() const { return bytes_.size(); }
-
- private:
+  /// What append() wrote.
   void take(void* data, std::size_t size) {
     if (size > bytes_.size()) throw Error("expected " + std::to_string(size) + " more bytes, found " + std::to_string(left()));
     if (size > 0) std::memcpy(data, bytes_.data(), size);
     bytes_ = bytes_.subspan(size);
   }
+  std::size_t left() const { return bytes_.size(); }
+
+ private:
   std::size_t takeCount(std::size_t elementSize) {
     const auto count = read<std::uint64_t>();
     if (count > left() / elementSize) throw Error("expected " + std::to_string(count) + " elements, found " + std::to_string(left()) + " bytes");
