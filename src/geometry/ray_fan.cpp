@@ -33,20 +33,20 @@ int lastCellBefore(double units) {
 
 }  // namespace
 
-std::span<const RayFan::Span> RayFan::trace(const Eigen::Vector2d& origin, std::span<const Eigen::Vector2d> ends) {
+void RayFan::trace(const Eigen::Vector2d& origin, std::span<const Eigen::Vector2d> ends, const Visitor& visit) {
+  visit_ = &visit;
   originX_ = toUnits(origin.x());
   const std::int32_t originY = toUnits(origin.y());
   originRow_ = cellOf(originY);
   const double riseUp = (originRow_ + 1) * kUnitsPerCell - originY;
   const double riseDown = originY - originRow_ * kUnitsPerCell;
 
-  spans_.clear();
   up_.clear();
   down_.clear();
-  Span ownRow{originRow_, cellOf(originX_), cellOf(originX_)};
-  const auto extendOwnRow = [&](Interval interval) {
-    ownRow.first = std::min(ownRow.first, interval.first);
-    ownRow.last = std::max(ownRow.last, interval.last);
+  Span ownRow{cellOf(originX_), cellOf(originX_)};
+  const auto extendOwnRow = [&](Span span) {
+    ownRow.first = std::min(ownRow.first, span.first);
+    ownRow.last = std::max(ownRow.last, span.last);
   };
 
   for (const auto& end : ends) {
@@ -65,28 +65,32 @@ std::span<const RayFan::Span> RayFan::trace(const Eigen::Vector2d& origin, std::
     ray.endRow = up ? row - originRow_ : originRow_ - row;
     ray.endCell = cellOf(x);
     rise_ = up ? riseUp : riseDown;
-    extendOwnRow(crossed(ray, 0));
+    // The own row is crossed from the origin to the upper border.
+    const double above = crossing(ray, 0);
+    extendOwnRow(ray.dx > 0 ? Span{cellOf(originX_), lastCellBefore(above)}
+                            : Span{floorCell(above), cellOf(originX_)});
     (up ? up_ : down_).push_back(ray);
   }
-  if (!ends.empty()) spans_.push_back(ownRow);
+  if (!ends.empty()) visit(originRow_, std::span(&ownRow, 1));
   rise_ = riseUp;
   sweepUpwards(up_, false);
   rise_ = riseDown;
   sweepUpwards(down_, true);
-  return spans_;
 }
 
-/// The cells of a row above the origin's (0: its own) that the ray passes.
-RayFan::Interval RayFan::crossed(const Ray& ray, int row) const {
-  const double top = rise_ + static_cast<double>(row) * kUnitsPerCell;
-  // Divided last, so that a crossing of a border's corner comes out exactly.
-  const double below = row == 0 ? originX_ : originX_ + ray.dx * (top - kUnitsPerCell) / ray.dy;
-  if (row == ray.endRow) {
-    return ray.dx > 0 ? Interval{floorCell(below), ray.endCell} : Interval{ray.endCell, lastCellBefore(below)};
-  }
-  const double above = originX_ + ray.dx * top / ray.dy;
-  return ray.dx > 0 ? Interval{floorCell(below), lastCellBefore(above)}
-                    : Interval{floorCell(above), lastCellBefore(below)};
+/// Where the ray crosses the upper border of a row, 1/256 cells. Divided last, so that a corner comes out exactly.
+double RayFan::crossing(const Ray& ray, int row) const {
+  return originX_ + ray.dx * (rise_ + static_cast<double>(row) * kUnitsPerCell) / ray.dy;
+}
+
+int RayFan::firstCrossed(const Ray& ray, int row) const {
+  if (ray.dx <= 0 && row == ray.endRow) return ray.endCell;
+  return floorCell(ray.dx > 0 ? crossing(ray, row - 1) : crossing(ray, row));
+}
+
+int RayFan::lastCrossed(const Ray& ray, int row) const {
+  if (ray.dx > 0 && row == ray.endRow) return ray.endCell;
+  return lastCellBefore(ray.dx > 0 ? crossing(ray, row) : crossing(ray, row - 1));
 }
 
 /// Up to this row no cell fits between two neighbouring rays that both pass the whole row; beyond it, they share none.
@@ -120,11 +124,16 @@ void RayFan::sweepUpwards(std::vector<Ray>& rays, bool mirrored) {
 
   const int lastRow = scheduleSplits(rays);
   runs_.assign(1, {0, static_cast<int>(rays.size()) - 1});
-  for (int row = 1; row <= lastRow && !runs_.empty(); ++row) {
+  leaningRight_.clear();
+  leaningLeft_.clear();
+  for (int row = 1; row <= lastRow; ++row) {
+    spans_.clear();
     splitRuns(row);
-    emitRow(rays, row, mirrored);
+    addRuns(rays, row);
+    addAlone(leaningRight_, true, row);
+    addAlone(leaningLeft_, false, row);
+    (*visit_)(mirrored ? originRow_ - row : originRow_ + row, spans_);
   }
-  for (const auto& ray : rays) walkAlone(ray, mirrored);
 }
 
 /// Finds the row after which each two neighbours part, and from which on each ray is alone. Returns the last row of all.
@@ -164,70 +173,124 @@ void RayFan::splitRuns(int row) {
   runs_.swap(splitRuns_);
 }
 
-void RayFan::emitRow(const std::vector<Ray>& rays, int row, bool mirrored) {
-  intervals_.clear();
+/// The row's cells of rays that share some. Rays that share none from here on leave the runs.
+void RayFan::addRuns(const std::vector<Ray>& rays, int row) {
+  auto& crossed = crossedByRuns_;
+  crossed.clear();
   std::size_t kept = 0;
   for (const auto& run : runs_) {
     const auto& right = rays[static_cast<std::size_t>(run.first)];
     if (run.first == run.last) {
-      if (right.endRow < row || right.aloneFrom <= row) continue;
-      intervals_.push_back(crossed(right, row));
-    } else {
-      const auto& left = rays[static_cast<std::size_t>(run.last)];
-      intervals_.push_back({crossed(left, row).first, crossed(right, row).last});
+      if (right.endRow < row) continue;
+      if (right.aloneFrom <= row) {
+        leaveAlone(right, row);
+        continue;
+      }
     }
+    crossed.push_back({firstCrossed(rays[static_cast<std::size_t>(run.last)], row), lastCrossed(right, row)});
     runs_[kept++] = run;
     // Runs come from right to left; only rays that end within the row can break the order, and not by far.
-    for (auto at = intervals_.size() - 1; at > 0 && intervals_[at].first > intervals_[at - 1].first; --at) {
-      std::swap(intervals_[at], intervals_[at - 1]);
+    for (auto at = crossed.size() - 1; at > 0 && crossed[at].first > crossed[at - 1].first; --at) {
+      std::swap(crossed[at], crossed[at - 1]);
     }
   }
   runs_.resize(kept);
 
-  const int y = mirrored ? originRow_ - row : originRow_ + row;
-  for (std::size_t i = intervals_.size(); i > 0;) {
-    Span span{y, intervals_[i - 1].first, intervals_[i - 1].last};
-    for (--i; i > 0 && intervals_[i - 1].first <= span.last + 1; --i) {
-      span.last = std::max(span.last, intervals_[i - 1].last);
-    }
+  for (std::size_t i = crossed.size(); i > 0;) {
+    Span span = crossed[i - 1];
+    for (--i; i > 0 && crossed[i - 1].first <= span.last + 1; --i) span.last = std::max(span.last, crossed[i - 1].last);
     spans_.push_back(span);
   }
 }
 
-/// The rest of a ray, from the row on from which it shares no cell with others. Crossings in whole numbers, step by step.
-void RayFan::walkAlone(const Ray& ray, bool mirrored) {
-  if (ray.aloneFrom > ray.endRow) return;
+/// From this row on the ray's crossings are followed step by step.
+void RayFan::leaveAlone(const Ray& ray, int row) {
   const auto dx = static_cast<std::int64_t>(ray.dx);
   const auto dy = static_cast<std::int64_t>(ray.dy);
   const auto floorDivision = [dy](std::int64_t number) {
     const std::int64_t quotient = number / dy;
     return number % dy < 0 ? quotient - 1 : quotient;
   };
-  // The crossing of the border below the row lies at x + rest / dy units.
-  const auto below = static_cast<std::int64_t>(rise_) + (ray.aloneFrom - 1) * std::int64_t{kUnitsPerCell};
-  std::int64_t x = floorDivision(dx * below);
-  std::int64_t rest = dx * below - x * dy;
-  x += originX_;
+  const auto below = static_cast<std::int64_t>(rise_) + (row - 1) * std::int64_t{kUnitsPerCell};
+  const std::int64_t x = floorDivision(dx * below);
   const std::int64_t step = floorDivision(dx * kUnitsPerCell);
-  const std::int64_t restStep = dx * kUnitsPerCell - step * dy;
+  (dx > 0 ? leaningRight_ : leaningLeft_)
+      .add(ray, originX_ + x, dx * below - x * dy, step, dx * kUnitsPerCell - step * dy);
+}
 
-  const int sign = mirrored ? -1 : 1;
-  int cell = static_cast<int>(x >> 8);
-  int cellBefore = (x & 0xFF) == 0 && rest == 0 ? cell - 1 : cell;  // seen from the left of a corner
-  for (int row = ray.aloneFrom; row < ray.endRow; ++row) {
-    const int from = cell;
-    const int fromBefore = cellBefore;
-    x += step;
-    rest += restStep;
-    const bool carry = rest >= dy;
-    x += carry ? 1 : 0;
-    rest -= carry ? dy : 0;
-    cell = static_cast<int>(x >> 8);
-    cellBefore = (x & 0xFF) == 0 && rest == 0 ? cell - 1 : cell;
-    const bool right = dx > 0;
-    spans_.push_back({originRow_ + sign * row, right ? from : cell, right ? cellBefore : fromBefore});
+void RayFan::addAlone(LoneRays& rays, bool leanRight, int row) {
+  // A corner belongs to neither of the cells that only touch there: from the left, the cell before it was the last.
+  const auto isCorner = [](std::int32_t x, std::int32_t rest) {
+    return static_cast<int>((x & (kUnitsPerCell - 1)) == 0) & static_cast<int>(rest == 0);
+  };
+  for (std::size_t i = 0; rays.nextEnd == row && i < rays.x.size();) {
+    if (rays.endRow[i] > row) {
+      ++i;
+      continue;
+    }
+    const int cell = cellOf(rays.x[i]);
+    spans_.push_back(leanRight ? Span{cell, rays.endCell[i]}
+                               : Span{rays.endCell[i], cell - isCorner(rays.x[i], rays.rest[i])});
+    rays.remove(i);
   }
-  spans_.push_back({originRow_ + sign * ray.endRow, dx > 0 ? cell : ray.endCell, dx > 0 ? ray.endCell : cellBefore});
+  if (rays.nextEnd == row) {
+    rays.nextEnd = rays.endRow.empty() ? 0 : *std::min_element(rays.endRow.begin(), rays.endRow.end());
+  }
+
+  const auto begin = spans_.size();
+  const auto count = rays.x.size();
+  spans_.resize(begin + count);
+  // Without branches on what chance decides, and without aliases, so that the compiler takes several rays at a time.
+  Span* __restrict const spans = spans_.data() + begin;
+  std::int32_t* __restrict const xs = rays.x.data();
+  std::int32_t* __restrict const rests = rays.rest.data();
+  const std::int32_t* __restrict const steps = rays.step.data();
+  const std::int32_t* __restrict const restSteps = rays.restStep.data();
+  const std::int32_t* __restrict const dys = rays.dy.data();
+  const auto follow = [=](auto toSpan) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::int32_t x = xs[i];
+      const std::int32_t rest = rests[i];
+      const std::int32_t sum = rest + restSteps[i];
+      const std::int32_t carry = -static_cast<std::int32_t>(sum >= dys[i]);  // all bits or none
+      xs[i] = x + steps[i] - carry;
+      rests[i] = sum - (dys[i] & carry);
+      spans[i] = toSpan(x, rest, xs[i], rests[i]);
+    }
+  };
+  if (leanRight) {
+    follow([&](auto x, auto, auto nextX, auto nextRest) {
+      return Span{cellOf(x), cellOf(nextX) - isCorner(nextX, nextRest)};
+    });
+  } else {
+    follow([&](auto x, auto rest, auto nextX, auto) { return Span{cellOf(nextX), cellOf(x) - isCorner(x, rest)}; });
+  }
+}
+
+void RayFan::LoneRays::clear() {
+  for (auto* values : {&x, &rest, &step, &restStep, &dy}) values->clear();
+  endRow.clear();
+  endCell.clear();
+  nextEnd = 0;
+}
+
+void RayFan::LoneRays::add(const Ray& ray, std::int64_t atX, std::int64_t atRest, std::int64_t stepX,
+                           std::int64_t stepRest) {
+  x.push_back(static_cast<std::int32_t>(atX));
+  rest.push_back(static_cast<std::int32_t>(atRest));
+  step.push_back(static_cast<std::int32_t>(stepX));
+  restStep.push_back(static_cast<std::int32_t>(stepRest));
+  dy.push_back(static_cast<std::int32_t>(ray.dy));
+  endRow.push_back(ray.endRow);
+  endCell.push_back(ray.endCell);
+  nextEnd = nextEnd == 0 ? ray.endRow : std::min(nextEnd, ray.endRow);
+}
+
+void RayFan::LoneRays::remove(std::size_t i) {
+  for (auto* values : {&x, &rest, &step, &restStep, &dy, &endRow, &endCell}) {
+    (*values)[i] = values->back();
+    values->pop_back();
+  }
 }
 
 }  // namespace prodomos::geometry

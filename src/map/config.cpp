@@ -9,10 +9,10 @@ void describe(base::ConfigVisitor& visitor, LayersConfig& config) {
   visitor.section("grid", "occupancy grid of each sub-map");
   visitor.key("resolution", grid.resolution, "m", {0.005, 1.0}, "edge length of a cell");
   visitor.key("max_range", grid.maxRange, "m", {0.5, 500.0}, "beams are used up to here");
-  visitor.key("hit", grid.hit, "", {0.51, 0.99}, "probability of being occupied that an end point stands for");
-  visitor.key("miss", grid.miss, "", {0.01, 0.49}, "probability of being occupied that a passing beam stands for");
-  visitor.key("clamp_low", grid.clampLow, "", {0.001, 0.49}, "least probability a cell can take");
-  visitor.key("clamp_high", grid.clampHigh, "", {0.51, 0.999}, "greatest probability a cell can take");
+  visitor.key("hit", grid.hit, "", {0.51, 0.95}, "probability of being occupied that an end point stands for");
+  visitor.key("miss", grid.miss, "", {0.10, 0.49}, "probability of being occupied that a passing beam stands for");
+  visitor.key("clamp_low", grid.clampLow, "", {0.05, 0.49}, "least probability a cell can take");
+  visitor.key("clamp_high", grid.clampHigh, "", {0.51, 0.99}, "greatest probability a cell can take");
   visitor.key("band_least", grid.heightBand.least, "m", {-1.0, 10.0},
               "things of 3D sensors from this height over the floor on are obstacles");
   visitor.key("band_most", grid.heightBand.most, "m", {0.0, 10.0}, "… and up to this height");

@@ -8,17 +8,63 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 namespace prodomos::map {
 
 namespace {
 
-constexpr int kGrowthMargin = 64;  // cells; storage grows in strides, not scan by scan
+constexpr int kGrowthMargin = 128;  // cells; storage grows in strides, not scan by scan
+constexpr int kLanes = 16;          // cells updated at a time; storage ends with as many that belong to no row
 
 OccupancyGrid::Cell logOdds(double probability) {
-  return static_cast<OccupancyGrid::Cell>(
-      std::lround(OccupancyGrid::kUnitsPerNat * std::log(probability / (1.0 - probability))));
+  const double nats = std::log(probability / (1.0 - probability));
+  const auto units = std::lround(OccupancyGrid::kUnitsPerNat * nats);
+  return static_cast<OccupancyGrid::Cell>(units != 0 ? units : nats < 0.0 ? -1 : 1);
 }
+
+/// Lowers cells that beams pass. The constants are held apart from the grid: its cells, being characters, may alias anything.
+class Misser {
+ public:
+  using Cell = OccupancyGrid::Cell;
+
+  Misser(Cell miss, Cell low) : miss_(miss), low_(low) {}
+
+  void operator()(Cell* cells, int count) const {
+    if (count <= 2) {
+      // One or two, as chance has it; so without a branch on it.
+      Cell& last = cells[count - 1];
+      const Cell first = missed(cells[0]);
+      last = missed(last);
+      cells[0] = first;
+      return;
+    }
+    for (; count >= kLanes; count -= kLanes, cells += kLanes) missLanes(cells, kLanes);
+    if (count > 0) missLanes(cells, count);
+  }
+
+ private:
+  Cell missed(Cell cell) const {
+    const int before = cell == OccupancyGrid::kUnknownCell ? 0 : cell;
+    return static_cast<Cell>(std::max<int>(before + miss_, low_));
+  }
+
+  /// Sixteen cells at a time, of which those from `count` on are put back as they were. No overflow: the clamp leaves
+  /// room below for the greatest miss.
+  void missLanes(Cell* cells, int count) const {
+    using Lanes = Cell __attribute__((vector_size(kLanes)));
+    const Lanes position = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    Lanes before;
+    std::memcpy(&before, cells, sizeof before);
+    Lanes after = (before == OccupancyGrid::kUnknownCell ? Lanes{} : before) + miss_;
+    after = after < low_ ? Lanes{} + low_ : after;
+    after = position < static_cast<Cell>(count) ? after : before;
+    std::memcpy(cells, &after, sizeof after);
+  }
+
+  Cell miss_;
+  Cell low_;
+};
 
 constexpr Rgba kFreeColor{250, 250, 247, 255};
 constexpr Rgba kOccupiedColor{38, 50, 66, 255};
@@ -32,10 +78,6 @@ OccupancyGrid::OccupancyGrid(const OccupancyGridConfig& config)
       miss_(logOdds(config.miss)),
       low_(logOdds(config.clampLow)),
       high_(logOdds(config.clampHigh)) {}
-
-OccupancyGrid::Cell OccupancyGrid::cell(geometry::CellIndex index) const {
-  return box_.contains(index) ? row(index.y)[index.x - box_.first.x] : kUnknownCell;
-}
 
 double OccupancyGrid::probability(geometry::CellIndex index) const {
   const Cell value = cell(index);
@@ -66,7 +108,7 @@ void OccupancyGrid::grow(const geometry::CellBox& needed) {
     grown.add(box_.first);
     grown.add(box_.last);
   }
-  std::vector<Cell> cells(static_cast<std::size_t>(grown.width()) * static_cast<std::size_t>(grown.height()),
+  std::vector<Cell> cells(static_cast<std::size_t>(grown.width()) * static_cast<std::size_t>(grown.height()) + kLanes,
                           kUnknownCell);
   for (int y = box_.first.y; y <= box_.last.y; ++y) {
     const auto offset = static_cast<std::ptrdiff_t>(y - grown.first.y) * grown.width() + box_.first.x - grown.first.x;
@@ -101,27 +143,15 @@ void OccupancyGrid::insert(const Eigen::Vector2d& origin, std::span<const Beam> 
   if (ends_.empty()) return;
   grow(touched);
 
-  const auto missed = [low = low_, miss = miss_](Cell cell) {
-    const Cell before = cell == kUnknownCell ? Cell{0} : cell;
-    return std::max<Cell>(static_cast<Cell>(before + miss), low);
-  };
   // A cell with an end point counts as hit alone: its value is kept aside while the beams pass.
   for (auto& hit : hits_) hit.before = row(hit.cell.y)[hit.cell.x - box_.first.x];
-  for (const auto& span : fan_.trace(start, ends_)) {
-    auto* cells = row(span.y) - box_.first.x;
-    if (span.last - span.first <= 1) {
-      // One cell or two, as chance will have it: without a branch on which. A second time, the cell is only put back.
-      const Cell first = missed(cells[span.first]);
-      const Cell last = span.last == span.first ? first : missed(cells[span.last]);
-      cells[span.first] = first;
-      cells[span.last] = last;
-    } else {
-      for (int x = span.first; x <= span.last; ++x) cells[x] = missed(cells[x]);
-    }
-  }
+  fan_.trace(start, ends_, [this, miss = Misser(miss_, low_)](int y, std::span<const geometry::RayFan::Span> spans) {
+    auto* cells = row(y) - box_.first.x;
+    for (const auto& span : spans) miss(cells + span.first, span.last - span.first + 1);
+  });
   for (const auto& hit : hits_) {
     const Cell before = hit.before == kUnknownCell ? Cell{0} : hit.before;
-    row(hit.cell.y)[hit.cell.x - box_.first.x] = std::min<Cell>(static_cast<Cell>(before + hit_), high_);
+    row(hit.cell.y)[hit.cell.x - box_.first.x] = static_cast<Cell>(std::min(before + hit_, static_cast<int>(high_)));
   }
 }
 
@@ -225,7 +255,7 @@ void OccupancyGrid::load(base::ByteReader& in, int version) {
   }
   *this = OccupancyGrid(config);
   box_ = box;
-  cells_.resize(cells);
+  cells_.assign(cells + kLanes, kUnknownCell);
   in.take(cells_.data(), cells * sizeof(Cell));
 }
 

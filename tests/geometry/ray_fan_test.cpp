@@ -69,11 +69,13 @@ Cells bruteForce(const Eigen::Vector2d& origin, std::span<const Eigen::Vector2d>
 Cells traced(const Eigen::Vector2d& origin, std::span<const Eigen::Vector2d> ends) {
   RayFan fan;
   Cells cells;
-  for (const auto& span : fan.trace(origin, ends)) {
-    for (int x = span.first; x <= span.last; ++x) {
-      EXPECT_TRUE(cells.insert({x, span.y}).second) << "cell " << x << ", " << span.y << " comes twice";
+  fan.trace(origin, ends, [&](int y, std::span<const RayFan::Span> spans) {
+    for (const auto& span : spans) {
+      for (int x = span.first; x <= span.last; ++x) {
+        EXPECT_TRUE(cells.insert({x, y}).second) << "cell " << x << ", " << y << " comes twice";
+      }
     }
-  }
+  });
   return cells;
 }
 
@@ -88,7 +90,7 @@ std::vector<Eigen::Vector2d> fanOf(const Eigen::Vector2d& origin, double first, 
 }
 
 TEST(RayFan, PassesNothingWithoutRays) {
-  EXPECT_TRUE(RayFan().trace({0.5, 0.5}, {}).empty());
+  EXPECT_TRUE(traced({0.5, 0.5}, {}).empty());
 }
 
 TEST(RayFan, PassesTheOwnCellOfARayOfLengthZero) {

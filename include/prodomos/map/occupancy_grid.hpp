@@ -23,10 +23,10 @@ class OccupancyGrid final : public MapLayer {
  public:
   static constexpr std::string_view kTypeId = "occupancy_grid";
 
-  /// Fixed-point log-odds; kUnknownCell: never touched by any beam.
-  using Cell = std::int16_t;
+  /// Log-odds in 1/24 nat, so that P is true to 0.005; kUnknownCell: never touched by any beam.
+  using Cell = std::int8_t;
   static constexpr Cell kUnknownCell = std::numeric_limits<Cell>::min();
-  static constexpr double kUnitsPerNat = 1024.0;
+  static constexpr double kUnitsPerNat = 24.0;
 
   explicit OccupancyGrid(const OccupancyGridConfig& config = {});
 
@@ -37,7 +37,9 @@ class OccupancyGrid final : public MapLayer {
   geometry::CellIndex cellAt(const Eigen::Vector2d& point_in_submap) const {
     return geometry::cellAt(point_in_submap.x(), point_in_submap.y(), config_.resolution);
   }
-  Cell cell(geometry::CellIndex index) const;
+  Cell cell(geometry::CellIndex index) const {
+    return box_.contains(index) ? row(index.y)[index.x - box_.first.x] : kUnknownCell;
+  }
   CellState state(geometry::CellIndex index) const { return stateOf(cell(index)); }
   /// P(occupied); 0.5 where unknown.
   double probability(geometry::CellIndex index) const;
