@@ -49,8 +49,7 @@ std::optional<geometry::Pose3> increment(const mrpt::obs::CAction& action) {
                                                    : planar->poseChange->getMeanVal());
   }
   if (const auto* spatial = dynamic_cast<const mrpt::obs::CActionRobotMovement3D*>(&action)) {
-    const bool measured = spatial->estimationMethod == mrpt::obs::CActionRobotMovement3D::emOdometry;
-    return toPose3(measured ? spatial->rawOdometryIncrementReading : spatial->poseChange.mean);
+    return toPose3(spatial->poseChange.mean);  // MRPT does not store the odometry of this class
   }
   return std::nullopt;
 }

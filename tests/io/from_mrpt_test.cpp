@@ -195,7 +195,7 @@ TEST(RawlogReader, LendsAnActionWithoutTimeThatOfItsSensoryFrame) {
   CActionRobotMovement2D planar;
   planar.computeFromOdometry(mrpt::poses::CPose2D(1.0, 0.0, M_PI / 2), {});
   CActionRobotMovement3D spatial;
-  spatial.rawOdometryIncrementReading = mrpt::poses::CPose3D(1.0, 0.0, 0.5, 0.0, 0.0, 0.0);
+  spatial.poseChange.mean = mrpt::poses::CPose3D(1.0, 0.0, 0.5, 0.0, 0.0, 0.0);
   CActionCollection first;
   first.insert(planar);
   CActionCollection second;

@@ -56,16 +56,20 @@ TEST(RawlogReader, ReadsBothFlavoursOfTheSameDriveAlike) {
   if (!actions || !observations) GTEST_SKIP() << "needs laser/driving_in_office*.rawlog";
   const auto a = readAll(*openSource(*actions));
   const auto b = readAll(*openSource(*observations));
-  ASSERT_EQ(a.readings.size(), b.readings.size());
-  for (std::size_t i = 0; i < a.readings.size(); ++i) {
-    ASSERT_EQ(a.readings[i].time, b.readings[i].time);
-    ASSERT_EQ(a.readings[i].data.index(), b.readings[i].data.index());
-    if (const auto* scan = std::get_if<sensors::LaserScan>(&a.readings[i].data)) {
-      EXPECT_EQ(scan->ranges, as<sensors::LaserScan>(b.readings[i]).ranges);
-    } else {
-      const auto& odometry = as<sensors::Odometry>(b.readings[i]);
-      EXPECT_TRUE(as<sensors::Odometry>(a.readings[i]).T_odom_body.isApprox(odometry.T_odom_body, 1e-6));
-    }
+  const auto scansA = a.of<sensors::LaserScan>();
+  const auto scansB = b.of<sensors::LaserScan>();
+  ASSERT_EQ(scansA.size(), scansB.size());
+  for (std::size_t i = 0; i < scansA.size(); ++i) {
+    ASSERT_EQ(scansA[i].time, scansB[i].time);
+    ASSERT_EQ(as<sensors::LaserScan>(scansA[i]).ranges, as<sensors::LaserScan>(scansB[i]).ranges);
+  }
+  const auto odometryA = a.of<sensors::Odometry>();
+  const auto odometryB = b.of<sensors::Odometry>();
+  ASSERT_EQ(odometryA.size(), odometryB.size());
+  for (std::size_t i = 0; i < odometryA.size(); ++i) {
+    ASSERT_EQ(odometryA[i].time, odometryB[i].time);
+    const auto& T_odom_body = as<sensors::Odometry>(odometryB[i]).T_odom_body;
+    ASSERT_TRUE(as<sensors::Odometry>(odometryA[i]).T_odom_body.isApprox(T_odom_body, 1e-6)) << i;
   }
 }
 
