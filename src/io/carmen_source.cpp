@@ -54,17 +54,14 @@ std::size_t readingCount(const Fields& fields, std::size_t index) {
 
 /// What the log says of a laser before its first scan.
 struct Laser {
-  std::string offsetKey;      ///< metres ahead of the body's origin
-  std::string resolutionKey;  ///< degrees
-  std::string fovKey;         ///< degrees
-  std::string maxKey;         ///< metres
-  double heading = 0.0;       ///< of the laser in the body, radians
+  std::string offsetKey;  ///< metres ahead of the body's origin
+  std::string fovKey;     ///< degrees
+  std::string maxKey;     ///< metres
+  double heading = 0.0;   ///< of the laser in the body, radians
 };
 
-const Laser kFrontLaser = {"robot_frontlaser_offset", "laser_front_laser_resolution", "laser_front_laser_fov",
-                           "robot_front_laser_max", 0.0};
-const Laser kRearLaser = {"robot_rearlaser_offset", "laser_rear_laser_resolution", "laser_rear_laser_fov",
-                          "robot_rear_laser_max", std::numbers::pi};
+const Laser kFrontLaser = {"robot_frontlaser_offset", "laser_front_laser_fov", "robot_front_laser_max", 0.0};
+const Laser kRearLaser = {"robot_rearlaser_offset", "laser_rear_laser_fov", "robot_rear_laser_max", std::numbers::pi};
 
 class CarmenSource final : public sensors::SensorSource {
  public:
@@ -165,13 +162,13 @@ class CarmenSource final : public sensors::SensorSource {
     addScan(std::move(scan), fields, 9, count, time, label, T_odom_body);
   }
 
-  /// The old messages do not say where their beams point: over 180 degrees, from right to left, and where the count is
-  /// even (180, 360) the last beam of the round number is the one that is missing.
+  /// The old messages do not say where their beams point. Like the importers of MRPT and with them the public rawlogs
+  /// of such logs: from the right to the left end of 180 degrees. (Lasers of 0.5 degrees that drop their 361st beam end
+  /// at 89.5 degrees instead; no log tells the two apart.)
   void setFan(sensors::LaserScan& scan, std::size_t count, const Laser& laser) const {
-    const double fov = parameter(laser.fovKey, 180.0);
-    const double intervals = static_cast<double>(count % 2 == 0 ? count : count - 1);
-    scan.firstAngle = -fov / 2.0 * kRadiansPerDegree;
-    scan.angleStep = count > 1 ? fov / intervals * kRadiansPerDegree : 0.0;
+    const double fov = parameter(laser.fovKey, 180.0) * kRadiansPerDegree;
+    scan.firstAngle = -fov / 2.0;
+    scan.angleStep = count > 1 ? fov / static_cast<double>(count - 1) : 0.0;
   }
 
   void addScan(sensors::LaserScan scan, const Fields& fields, std::size_t first, std::size_t count, base::Time time,

@@ -177,12 +177,16 @@ Conversion convertRangeImage(const CObservation3DRangeScan& observation) {
         toPose3(observation.relativePoseIntensityWRTDepth).inverse() * sensors::cameraAxesInBody();
     frame.color = registeredColor(frame.depth, frame.camera, frame.color, *colorCamera, T_color_depth);
   }
-  frame.labels = labelImage(observation);
-  if (frame.labels && !sameSize(frame.labels->classes, frame.depth)) {
-    frame.labels.reset();
-    return Converted{std::move(frame), "expected labels of the size of the range image, found another size"};
+  Converted result{std::move(frame)};
+  if (auto labels = labelImage(observation)) {
+    auto& labelled = std::get<sensors::RgbdFrame>(result.data);
+    if (sameSize(labels->classes, labelled.depth)) {
+      labelled.labels = std::move(labels);
+    } else {
+      result.damage = "expected labels of the size of the range image, found another size";
+    }
   }
-  return Converted{std::move(frame)};
+  return result;
 }
 
 }  // namespace prodomos::io

@@ -20,6 +20,7 @@
 #include <array>
 #include <deque>
 #include <optional>
+#include <utility>
 
 namespace prodomos::io {
 
@@ -48,8 +49,7 @@ std::optional<geometry::Pose3> increment(const mrpt::obs::CAction& action) {
                                                    : planar->poseChange->getMeanVal());
   }
   if (const auto* spatial = dynamic_cast<const mrpt::obs::CActionRobotMovement3D*>(&action)) {
-    const bool measured = spatial->estimationMethod == mrpt::obs::CActionRobotMovement3D::emOdometry;
-    return toPose3(measured ? spatial->rawOdometryIncrementReading : spatial->poseChange.mean);
+    return toPose3(spatial->poseChange.mean);  // MRPT does not store the odometry of this class
   }
   return std::nullopt;
 }
@@ -191,21 +191,26 @@ void RawlogSource::addActions(const mrpt::obs::CActionCollection& actions, std::
 
 sensors::SourceItem RawlogSource::converted(const Entry& entry) const {
   const auto& observation = *std::get<mrpt::obs::CObservation::Ptr>(entry.content);
+  const auto skipped = [&](const std::string& reason, const std::string& expected, const std::string& found) {
+    return sensors::Skipped{reason, base::expectedFound(entry.place, expected, found), entry.time};
+  };
+  const auto missing = [&] {
+    const auto folder = images_ ? images_->string() : "a folder <log>_Images or Images beside it";
+    return skipped("missing image", "its external image in " + folder, "none that is readable");
+  };
   const MrptScope quiet(images_);
   try {
     observation.load();
   } catch (const std::exception&) {
-    const auto folder = images_ ? images_->string() : "a folder <log>_Images or Images beside it";
-    return sensors::Skipped{
-        "missing image", base::expectedFound(entry.place, "its external image in " + folder, "none that is readable"),
-        entry.time};
+    return missing();
   }
   try {
     return toItem(observation, entry.time, entry.place);
+  } catch (const mrpt::img::CExceptionExternalImageNotFound&) {  // loaded when it is first used
+    return missing();
   } catch (const std::exception&) {
     const auto name = className(observation);
-    return sensors::Skipped{"damaged " + name,
-                            base::expectedFound(entry.place, "a consistent " + name, "damaged content"), entry.time};
+    return skipped("damaged " + name, "a consistent " + name, "damaged content");
   }
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace prodomos::io {
 

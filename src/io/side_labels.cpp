@@ -25,7 +25,7 @@ sensors::ClassTable readClasses(const fs::path& path) {
     return classes;
   } catch (const YAML::Exception& fault) {
     throw base::FileError(
-        base::expectedFound(place(path, static_cast<std::size_t>(fault.mark.line + 1)), "`id: name` lines", fault.msg));
+        base::expectedFound(place(path, static_cast<std::size_t>(fault.mark.line) + 1), "`id: name` lines", fault.msg));
   }
 }
 

@@ -119,7 +119,7 @@ void readCamera(const fs::path& path, RgbdFolder& folder) {
                      {value("k1", 0), value("k2", 0), value("p1", 0), value("p2", 0), value("k3", 0)}};
     folder.depthScale = value("depth_scale", folder.depthScale);
   } catch (const YAML::Exception& fault) {
-    throw base::FileError(base::expectedFound(place(path, static_cast<std::size_t>(fault.mark.line + 1)),
+    throw base::FileError(base::expectedFound(place(path, static_cast<std::size_t>(fault.mark.line) + 1),
                                               "`key: number` lines", fault.msg));
   }
 }
