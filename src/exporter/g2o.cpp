@@ -14,9 +14,7 @@ constexpr int kDecimals = 9;
 
 std::string poseColumns(const geometry::Pose3& pose) {
   const Eigen::Vector3d t = pose.translation();
-  Eigen::Quaterniond q(pose.linear());
-  q.normalize();
-  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  const Eigen::Quaterniond q = quaternionOf(pose);
   std::string columns;
   for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) columns += ' ' + fixed(value, kDecimals);
   return columns;
