@@ -22,10 +22,10 @@ std::string poseColumns(const geometry::Pose3& pose) {
 
 /// Ours speaks of deviations in the axes of `from`; g2o's of deviations of the measured pose in its own, those of `to`.
 map::Matrix6 informationInTo(const map::Edge& edge) {
-  map::Matrix6 axes_from_to = map::Matrix6::Zero();
-  axes_from_to.topLeftCorner<3, 3>() = edge.T_from_to.linear();
-  axes_from_to.bottomRightCorner<3, 3>() = edge.T_from_to.linear();
-  return axes_from_to.transpose() * edge.information * axes_from_to;
+  map::Matrix6 rotations = map::Matrix6::Zero();
+  rotations.topLeftCorner<3, 3>() = edge.T_from_to.linear();
+  rotations.bottomRightCorner<3, 3>() = edge.T_from_to.linear();
+  return rotations.transpose() * edge.information * rotations;
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ std::pair<Group, double> drawLegend(const PlanContents& plan, double left, doubl
 Style edgeStyle(map::EdgeKind kind);
 Style observedNodeStyle(std::optional<int> place);
 Style predictedNodeStyle();
-/// The symbol of the entity; `M_page_entity` carries its metres (x ahead, y to the left) onto the page.
-std::vector<Shape> entitySymbol(const map::EntityAttributes& attributes, const Eigen::Affine2d& M_page_entity);
+/// The symbol of the entity; `T_page_entity` carries its metres (x ahead, y to the left) onto the page.
+std::vector<Shape> entitySymbol(const map::EntityAttributes& attributes, const Eigen::Affine2d& T_page_entity);
 
 }  // namespace prodomos::exporter

@@ -13,12 +13,12 @@ namespace {
 
 /// Draws each class as architects do, as far as they have a sign for it.
 struct Symbol {
-  const Eigen::Affine2d& M_page_entity;
+  const Eigen::Affine2d& T_page_entity;
 
-  Point at(double x, double y) const { return M_page_entity * Point(x, y); }
-  double scale() const { return M_page_entity.linear().col(0).norm(); }
+  Point at(double x, double y) const { return T_page_entity * Point(x, y); }
+  double scale() const { return T_page_entity.linear().col(0).norm(); }
   Line line(std::vector<Point> points, Style style, bool closed = false) const {
-    for (auto& point : points) point = M_page_entity * point;
+    for (auto& point : points) point = T_page_entity * point;
     return {.points = std::move(points), .closed = closed, .style = std::move(style)};
   }
   Line box(const Eigen::Vector3d& size, map::Rgba color) const {
@@ -98,17 +98,17 @@ struct Symbol {
 
 /// The entity's x-y-plane as it looks from above.
 Eigen::Affine2d pageOf(const Panel& panel, const geometry::Pose3& T_map_entity) {
-  Eigen::Affine2d M_page_entity = Eigen::Affine2d::Identity();
-  M_page_entity.linear() = panel.scale * T_map_entity.linear().topLeftCorner<2, 2>();
-  M_page_entity.linear().row(1) *= -1.0;  // y points down on the page
-  M_page_entity.translation() = panel.toPage(T_map_entity.translation());
-  return M_page_entity;
+  Eigen::Affine2d T_page_entity = Eigen::Affine2d::Identity();
+  T_page_entity.linear() = panel.scale * T_map_entity.linear().topLeftCorner<2, 2>();
+  T_page_entity.linear().row(1) *= -1.0;  // y points down on the page
+  T_page_entity.translation() = panel.toPage(T_map_entity.translation());
+  return T_page_entity;
 }
 
 }  // namespace
 
-std::vector<Shape> entitySymbol(const map::EntityAttributes& attributes, const Eigen::Affine2d& M_page_entity) {
-  return std::visit(Symbol{M_page_entity}, attributes);
+std::vector<Shape> entitySymbol(const map::EntityAttributes& attributes, const Eigen::Affine2d& T_page_entity) {
+  return std::visit(Symbol{T_page_entity}, attributes);
 }
 
 Group drawEntities(const PlanContents& plan) {

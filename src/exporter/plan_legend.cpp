@@ -49,10 +49,10 @@ Entry swatchEntry(const std::string& text, const map::Rgba& color) {
 /// Drawn facing up the page, so small that it fits into a row.
 Entry entityEntry(const std::string& text, const map::EntityAttributes& attributes, double scale, const Point& shift) {
   return {text, [=](const Point& centre) {
-            Eigen::Affine2d M_page_entity = Eigen::Affine2d::Identity();
-            M_page_entity.linear() << 0.0, -scale, -scale, 0.0;
-            M_page_entity.translation() = centre + shift;
-            return entitySymbol(attributes, M_page_entity);
+            Eigen::Affine2d T_page_entity = Eigen::Affine2d::Identity();
+            T_page_entity.linear() << 0.0, -scale, -scale, 0.0;
+            T_page_entity.translation() = centre + shift;
+            return entitySymbol(attributes, T_page_entity);
           }};
 }
 
