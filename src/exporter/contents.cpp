@@ -27,6 +27,13 @@ std::string logNames(const map::MapView& view) {
   return names.empty() ? "prodomos map" : names;
 }
 
+Eigen::Quaterniond quaternionOf(const geometry::Pose3& pose) {
+  Eigen::Quaterniond rotation(pose.linear());
+  rotation.normalize();
+  if (rotation.w() < 0.0) rotation.coeffs() = -rotation.coeffs();
+  return rotation;
+}
+
 geometry::Pose3 poseInMap(const map::MapView& view, const map::Entity& entity) {
   return view.graph().getNode(entity.submap).T_map_submap * entity.T_submap_entity;
 }

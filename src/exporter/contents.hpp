@@ -19,6 +19,8 @@ bool onFloor(std::optional<int> floorOfThing, std::optional<int> plan);
 /// The names of the logs, "fr079.rawlog + intel.rawlog"; "prodomos map" where there are no sessions.
 std::string logNames(const map::MapView& view);
 
+/// Of the two that turn alike, the one with w >= 0.
+Eigen::Quaterniond quaternionOf(const geometry::Pose3& pose);
 geometry::Pose3 poseInMap(const map::MapView& view, const map::Entity& entity);
 /// The bet that a predicted node stands for; null where there is none.
 const map::Prediction* predictionOf(const map::MapView& view, base::SubMapId node);

@@ -14,9 +14,7 @@ constexpr int kDecimals = 9;
 
 std::string poseColumns(const geometry::Pose3& pose) {
   const Eigen::Vector3d t = pose.translation();
-  Eigen::Quaterniond q(pose.linear());
-  q.normalize();
-  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  const Eigen::Quaterniond q = quaternionOf(pose);
   std::string columns;
   for (const double value : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) columns += ' ' + fixed(value, kDecimals);
   return columns;
@@ -24,10 +22,10 @@ std::string poseColumns(const geometry::Pose3& pose) {
 
 /// Ours speaks of deviations in the axes of `from`; g2o's of deviations of the measured pose in its own, those of `to`.
 map::Matrix6 informationInTo(const map::Edge& edge) {
-  map::Matrix6 axes_from_to = map::Matrix6::Zero();
-  axes_from_to.topLeftCorner<3, 3>() = edge.T_from_to.linear();
-  axes_from_to.bottomRightCorner<3, 3>() = edge.T_from_to.linear();
-  return axes_from_to.transpose() * edge.information * axes_from_to;
+  map::Matrix6 rotations = map::Matrix6::Zero();
+  rotations.topLeftCorner<3, 3>() = edge.T_from_to.linear();
+  rotations.bottomRightCorner<3, 3>() = edge.T_from_to.linear();
+  return rotations.transpose() * edge.information * rotations;
 }
 
 }  // namespace

@@ -24,10 +24,8 @@ Json array(const Eigen::Ref<const Eigen::VectorXd>& values) {
 }
 
 Json poseJson(const geometry::Pose3& pose) {
-  Eigen::Quaterniond rotation(pose.linear());
-  if (rotation.w() < 0.0) rotation.coeffs() = -rotation.coeffs();
   return {{"position", array(pose.translation())},
-          {"quaternion", array(rotation.coeffs())},
+          {"quaternion", array(quaternionOf(pose).coeffs())},
           {"yaw", number(geometry::yaw(pose))}};
 }
 
@@ -151,7 +149,7 @@ Json trajectoryRow(const map::TrajectoryPoint& point) {
   Json row = {toString(point.session), base::toString(point.time), toString(point.submap)};
   for (const auto& pose : {point.T_map_body, point.T_travel_body}) {
     row.push_back(array(pose.translation()));
-    row.push_back(array(Eigen::Quaterniond(pose.linear()).coeffs()));
+    row.push_back(array(quaternionOf(pose).coeffs()));
   }
   return row;
 }

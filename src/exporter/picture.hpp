@@ -18,33 +18,43 @@ namespace prodomos::exporter {
 using Point = Eigen::Vector2d;
 
 struct Style {
-  std::optional<map::Rgba> fill;
-  std::optional<map::Rgba> stroke;
-  double width = 1.0;          ///< of the stroke
-  std::vector<double> dashes;  ///< on, off, …; empty: solid
+  std::optional<map::Rgba> fill{};
+  std::optional<map::Rgba> stroke{};
+  double width = 1.0;            ///< of the stroke
+  std::vector<double> dashes{};  ///< on, off, …; empty: solid
 };
 
+inline Style filled(map::Rgba color) {
+  return {.fill = color};
+}
+inline Style stroked(map::Rgba color, double width, std::vector<double> dashes = {}) {
+  return {.stroke = color, .width = width, .dashes = std::move(dashes)};
+}
+inline Style filledAndStroked(map::Rgba fill, map::Rgba stroke, double width, std::vector<double> dashes = {}) {
+  return {.fill = fill, .stroke = stroke, .width = width, .dashes = std::move(dashes)};
+}
+
 struct Line {
-  std::vector<Point> points;
+  std::vector<Point> points{};
   bool closed = false;
   Style style;
-  std::string tip;  ///< shown by browsers when pointed at
+  std::string tip{};  ///< shown by browsers when pointed at
 };
 
 struct Circle {
   Point centre = Point::Zero();
   double radius = 1.0;
   Style style;
-  std::string tip;
+  std::string tip{};
 };
 
 enum class Anchor { kStart, kMiddle, kEnd };
 
 struct Text {
   Point at = Point::Zero();  ///< on the base line
-  std::string text;
+  std::string text{};
   double size = 10.0;
-  map::Rgba color;
+  map::Rgba color{};
   Anchor anchor = Anchor::kStart;
   bool bold = false;
   bool halo = false;  ///< a white rim, for text over drawings
@@ -54,7 +64,7 @@ struct Text {
 struct Raster {
   Point corner = Point::Zero();  ///< upper left
   double pixelSize = 1.0;
-  sensors::Image<map::Rgba> pixels;
+  sensors::Image<map::Rgba> pixels{};
 };
 
 using Shape = std::variant<Line, Circle, Text, Raster>;
@@ -62,14 +72,14 @@ using Shape = std::variant<Line, Circle, Text, Raster>;
 /// A layer of the drawing; its name is the id of its group in the SVG.
 struct Group {
   std::string name;
-  std::vector<Shape> shapes;
+  std::vector<Shape> shapes{};
 };
 
 struct Picture {
   double width = 0.0;
   double height = 0.0;
-  std::string title;
-  std::vector<Group> groups;
+  std::string title{};
+  std::vector<Group> groups{};
 };
 
 /// About how wide the text will be: rendering alone knows the font.

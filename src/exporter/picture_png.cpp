@@ -4,7 +4,7 @@
 
 #include "exporter/picture.hpp"
 
-#include <cairo/cairo.h>
+#include <cairo.h>
 
 #include <cmath>
 #include <memory>
@@ -60,17 +60,19 @@ void setColor(cairo_t* cairo, map::Rgba color) {
   cairo_set_source_rgba(cairo, color.r / 255.0, color.g / 255.0, color.b / 255.0, color.a / 255.0);
 }
 
+void stroke(cairo_t* cairo, const Style& style) {
+  setColor(cairo, *style.stroke);
+  cairo_set_line_width(cairo, style.width);
+  cairo_set_dash(cairo, style.dashes.data(), static_cast<int>(style.dashes.size()), 0.0);
+  cairo_stroke_preserve(cairo);
+}
+
 void paint(cairo_t* cairo, const Style& style) {
   if (style.fill) {
     setColor(cairo, *style.fill);
     cairo_fill_preserve(cairo);
   }
-  if (style.stroke) {
-    setColor(cairo, *style.stroke);
-    cairo_set_line_width(cairo, style.width);
-    cairo_set_dash(cairo, style.dashes.data(), static_cast<int>(style.dashes.size()), 0.0);
-    cairo_stroke_preserve(cairo);
-  }
+  if (style.stroke) stroke(cairo, style);
   cairo_new_path(cairo);
 }
 
@@ -96,14 +98,9 @@ struct Painter {
     const double shift = text.anchor == Anchor::kStart ? 0.0 : text.anchor == Anchor::kMiddle ? 0.5 : 1.0;
     cairo_move_to(cairo, text.at.x() - shift * extents.x_advance, text.at.y());
     cairo_text_path(cairo, text.text.c_str());
-    Style style{.fill = text.color, .stroke = {}, .width = text.size / 4, .dashes = {}};
-    if (text.halo) {
-      setColor(cairo, {255, 255, 255, 255});
-      cairo_set_line_width(cairo, style.width);
-      cairo_set_dash(cairo, nullptr, 0, 0.0);
-      cairo_stroke_preserve(cairo);
-    }
-    paint(cairo, style);
+
+    if (text.halo) stroke(cairo, stroked({255, 255, 255, 255}, text.size / 4));  // below the letters
+    paint(cairo, filled(text.color));
   }
   void operator()(const Raster& raster) const {
     const auto surface = makeSurface(raster.pixels);

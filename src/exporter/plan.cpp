@@ -60,7 +60,7 @@ Eigen::AlignedBox2d extentOf(const map::MapView& view, const std::vector<map::Tr
 std::vector<Panel> panelsOf(const map::MapView& view, const std::vector<map::TrajectoryPoint>& trajectory) {
   std::vector<Panel> panels;
   for (const auto floor : floorsOf(view)) {
-    Panel panel{.floor = floor, .grid = map::fuseGrids(view, floor), .extent_in_map = {}};
+    Panel panel{.floor = floor, .grid = map::fuseGrids(view, floor)};
     panel.extent_in_map = extentOf(view, trajectory, panel);
     panels.push_back(std::move(panel));
   }
@@ -100,7 +100,7 @@ double nodeRadiusFor(const std::vector<PlacedNode>& nodes) {
 }
 
 PlanContents contentsOf(const map::MapView& view) {
-  PlanContents plan{.view = view, .trajectory = view.trajectory(), .panels = {}, .nodes = {}};
+  PlanContents plan{.view = view, .trajectory = view.trajectory()};
   plan.panels = panelsOf(view, plan.trajectory);
   for (const auto id : view.graph().nodes()) {
     const auto& node = view.graph().getNode(id);
@@ -129,7 +129,7 @@ std::string subtitle(const map::MapView& view) {
 }
 
 Group drawHeader(const PlanContents& plan) {
-  Group group{"title", {}};
+  Group group{"title"};
   group.shapes.emplace_back(
       Text{.at = {kMargin, 34.0}, .text = logNames(plan.view), .size = 20.0, .color = kInkColor, .bold = true});
   group.shapes.emplace_back(
@@ -161,12 +161,10 @@ Picture planOf(const map::MapView& view) {
 
   Picture picture{.width = std::ceil(right + kMargin),
                   .height = std::ceil(bottom + 18.0 + legendHeight + kMargin / 2),
-                  .title = logNames(view),
-                  .groups = {}};
+                  .title = logNames(view)};
   const Line paper{.points = {{0, 0}, {picture.width, 0}, {picture.width, picture.height}, {0, picture.height}},
                    .closed = true,
-                   .style = {.fill = kFreeColor, .stroke = {}, .dashes = {}},
-                   .tip = {}};
+                   .style = filled(kFreeColor)};
   picture.groups.push_back({"paper", {paper}});
   picture.groups.push_back(drawHeader(plan));
   for (const auto draw :

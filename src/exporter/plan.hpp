@@ -18,9 +18,9 @@ Picture planOf(const map::MapView& view);
 struct Panel {
   std::optional<int> floor;
   map::OccupancyGrid grid;
-  Eigen::AlignedBox2d extent_in_map;  ///< metres
-  Point corner = Point::Zero();       ///< upper left, on the page
-  double scale = 1.0;                 ///< units of the page a metre
+  Eigen::AlignedBox2d extent_in_map{};  ///< metres
+  Point corner = Point::Zero();         ///< upper left, on the page
+  double scale = 1.0;                   ///< units of the page a metre
 
   double width() const { return extent_in_map.sizes().x() * scale; }
   double height() const { return extent_in_map.sizes().y() * scale; }
@@ -42,9 +42,9 @@ struct PlacedNode {
 /// What the parts of the plan are drawn from.
 struct PlanContents {
   const map::MapView& view;
-  std::vector<map::TrajectoryPoint> trajectory;
-  std::vector<Panel> panels;
-  std::vector<PlacedNode> nodes;  ///< ascending
+  std::vector<map::TrajectoryPoint> trajectory{};
+  std::vector<Panel> panels{};
+  std::vector<PlacedNode> nodes{};  ///< ascending
   double nodeRadius = 8.0;
 
   const PlacedNode& getNode(base::SubMapId id) const;
@@ -64,7 +64,7 @@ std::pair<Group, double> drawLegend(const PlanContents& plan, double left, doubl
 Style edgeStyle(map::EdgeKind kind);
 Style observedNodeStyle(std::optional<int> place);
 Style predictedNodeStyle();
-/// The symbol of the entity; `M_page_entity` carries its metres (x ahead, y to the left) onto the page.
-std::vector<Shape> entitySymbol(const map::EntityAttributes& attributes, const Eigen::Affine2d& M_page_entity);
+/// The symbol of the entity; `T_page_entity` carries its metres (x ahead, y to the left) onto the page.
+std::vector<Shape> entitySymbol(const map::EntityAttributes& attributes, const Eigen::Affine2d& T_page_entity);
 
 }  // namespace prodomos::exporter

@@ -11,25 +11,20 @@
 namespace prodomos::exporter {
 namespace {
 
-Style stroked(map::Rgba color, double width, std::vector<double> dashes = {}) {
-  return {.fill = {}, .stroke = color, .width = width, .dashes = std::move(dashes)};
-}
-
 /// Draws each class as architects do, as far as they have a sign for it.
 struct Symbol {
-  const Eigen::Affine2d& M_page_entity;
+  const Eigen::Affine2d& T_page_entity;
 
-  Point at(double x, double y) const { return M_page_entity * Point(x, y); }
-  double scale() const { return M_page_entity.linear().col(0).norm(); }
+  Point at(double x, double y) const { return T_page_entity * Point(x, y); }
+  double scale() const { return T_page_entity.linear().col(0).norm(); }
   Line line(std::vector<Point> points, Style style, bool closed = false) const {
-    for (auto& point : points) point = M_page_entity * point;
-    return {.points = std::move(points), .closed = closed, .style = std::move(style), .tip = {}};
+    for (auto& point : points) point = T_page_entity * point;
+    return {.points = std::move(points), .closed = closed, .style = std::move(style)};
   }
   Line box(const Eigen::Vector3d& size, map::Rgba color) const {
     const double x = size.x() / 2;
     const double y = size.y() / 2;
-    return line({{-x, -y}, {x, -y}, {x, y}, {-x, y}},
-                {.fill = withAlpha(color, 0.2), .stroke = color, .width = 1.0, .dashes = {}}, true);
+    return line({{-x, -y}, {x, -y}, {x, y}, {-x, y}}, filledAndStroked(withAlpha(color, 0.2), color, 1.0), true);
   }
 
   /// Leaf and swing; a doorway without a leaf is a threshold between two jambs.
@@ -38,8 +33,7 @@ struct Symbol {
     const Line threshold = line({{0, -half}, {0, half}}, stroked(withAlpha(kFreeColor, 0.9), 4.0));
     std::vector<Shape> shapes = {threshold};
     for (const double jamb : {-half, half}) {
-      shapes.emplace_back(Circle{
-          .centre = at(0, jamb), .radius = 1.8, .style = {.fill = kDoorColor, .stroke = {}, .dashes = {}}, .tip = {}});
+      shapes.emplace_back(Circle{.centre = at(0, jamb), .radius = 1.8, .style = filled(kDoorColor)});
     }
     if (!door.hasLeaf) {
       shapes.emplace_back(line({{0, -half}, {0, half}}, stroked(kDoorColor, 1.2, {1.0, 3.0})));
@@ -72,8 +66,7 @@ struct Symbol {
     const double x = steps * depth / 2;
     const double y = stairs.stepWidth / 2;
     std::vector<Shape> shapes = {line({{-x, -y}, {x, -y}, {x, y}, {-x, y}},
-                                      {.fill = withAlpha(kStairsColor, 0.12), .stroke = kStairsColor, .dashes = {}},
-                                      true)};
+                                      filledAndStroked(withAlpha(kStairsColor, 0.12), kStairsColor, 1.0), true)};
     for (int step = 1; step < steps; ++step) {
       const double edge = -x + step * depth;
       shapes.emplace_back(line({{edge, -y}, {edge, y}}, stroked(withAlpha(kStairsColor, 0.6), 0.7)));
@@ -88,9 +81,9 @@ struct Symbol {
   /// A head, and a stroke to where the person faces.
   std::vector<Shape> operator()(const map::Human& /*human*/) const {
     const double radius = std::max(3.0, 0.2 * scale());
-    const Style head{.fill = kHumanColor, .stroke = kFreeColor, .width = 1.0, .dashes = {}};
+    const Style head = filledAndStroked(kHumanColor, kFreeColor, 1.0);
     return {line({{0, 0}, {2.0 * radius / scale(), 0}}, stroked(kHumanColor, 0.5 * radius)),
-            Circle{.centre = at(0, 0), .radius = radius, .style = head, .tip = {}}};
+            Circle{.centre = at(0, 0), .radius = radius, .style = head}};
   }
 
   std::vector<Shape> operator()(const map::ObjectBox& object) const { return {box(object.size, kHumanColor)}; }
@@ -105,21 +98,21 @@ struct Symbol {
 
 /// The entity's x-y-plane as it looks from above.
 Eigen::Affine2d pageOf(const Panel& panel, const geometry::Pose3& T_map_entity) {
-  Eigen::Affine2d M_page_entity = Eigen::Affine2d::Identity();
-  M_page_entity.linear() = panel.scale * T_map_entity.linear().topLeftCorner<2, 2>();
-  M_page_entity.linear().row(1) *= -1.0;  // y points down on the page
-  M_page_entity.translation() = panel.toPage(T_map_entity.translation());
-  return M_page_entity;
+  Eigen::Affine2d T_page_entity = Eigen::Affine2d::Identity();
+  T_page_entity.linear() = panel.scale * T_map_entity.linear().topLeftCorner<2, 2>();
+  T_page_entity.linear().row(1) *= -1.0;  // y points down on the page
+  T_page_entity.translation() = panel.toPage(T_map_entity.translation());
+  return T_page_entity;
 }
 
 }  // namespace
 
-std::vector<Shape> entitySymbol(const map::EntityAttributes& attributes, const Eigen::Affine2d& M_page_entity) {
-  return std::visit(Symbol{M_page_entity}, attributes);
+std::vector<Shape> entitySymbol(const map::EntityAttributes& attributes, const Eigen::Affine2d& T_page_entity) {
+  return std::visit(Symbol{T_page_entity}, attributes);
 }
 
 Group drawEntities(const PlanContents& plan) {
-  Group group{"entities", {}};
+  Group group{"entities"};
   for (const auto& entity : plan.view.entities()) {
     const auto T_map_entity = poseInMap(plan.view, entity);
     auto symbol = entitySymbol(entity.attributes, pageOf(*plan.getNode(entity.submap).panel, T_map_entity));

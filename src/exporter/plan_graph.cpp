@@ -76,36 +76,36 @@ class LabelPlacer {
 Style edgeStyle(map::EdgeKind kind) {
   switch (kind) {
     case map::EdgeKind::kTravelled:
-      return {.fill = {}, .stroke = kInkColor, .width = 1.6, .dashes = {}};
+      return stroked(kInkColor, 1.6);
     case map::EdgeKind::kDoor:
-      return {.fill = {}, .stroke = kDoorColor, .width = 2.0, .dashes = {6.0, 4.0}};
+      return stroked(kDoorColor, 2.0, {6.0, 4.0});
     case map::EdgeKind::kStairs:
-      return {.fill = {}, .stroke = kStairsColor, .width = 2.0, .dashes = {8.0, 4.0, 1.0, 4.0}};
+      return stroked(kStairsColor, 2.0, {8.0, 4.0, 1.0, 4.0});
     case map::EdgeKind::kLoop:
-      return {.fill = {}, .stroke = kLoopColor, .width = 1.4, .dashes = {1.0, 3.5}};
+      return stroked(kLoopColor, 1.4, {1.0, 3.5});
     case map::EdgeKind::kLift:
-      return {.fill = {}, .stroke = kStairsColor, .width = 2.0, .dashes = {1.0, 4.5}};
+      return stroked(kStairsColor, 2.0, {1.0, 4.5});
   }
   return {};
 }
 
 Style observedNodeStyle(std::optional<int> place) {
-  return {.fill = placeColor(place), .stroke = kFreeColor, .width = 1.2, .dashes = {}};
+  return filledAndStroked(placeColor(place), kFreeColor, 1.2);
 }
 
 Style predictedNodeStyle() {
-  return {.fill = kFreeColor, .stroke = kPredictedColor, .width = 1.6, .dashes = {3.0, 2.5}};
+  return filledAndStroked(kFreeColor, kPredictedColor, 1.6, {3.0, 2.5});
 }
 
 Group drawEdges(const PlanContents& plan) {
   const double thin = std::clamp(plan.nodeRadius / 9.0, 0.6, 1.0);  // where nodes are small, edges are thin
-  Group group{"edges", {}};
+  Group group{"edges"};
   for (const auto id : plan.view.graph().edges()) {
     const auto& edge = plan.view.graph().getEdge(id);
     auto style = edgeStyle(edge.kind);
     const bool predicted = plan.getNode(edge.from).node.kind == map::SubMapKind::kPredicted ||
                            plan.getNode(edge.to).node.kind == map::SubMapKind::kPredicted;
-    if (predicted) style = {.fill = {}, .stroke = kPredictedColor, .width = 1.6, .dashes = {4.0, 4.0}};
+    if (predicted) style = stroked(kPredictedColor, 1.6, {4.0, 4.0});
     style.width *= thin;
     if (plan.getNode(edge.from).panel != plan.getNode(edge.to).panel) {  // it runs over things it has no part in
       style.width *= 0.6;
@@ -119,7 +119,7 @@ Group drawEdges(const PlanContents& plan) {
 }
 
 Group drawNodes(const PlanContents& plan) {
-  Group group{"nodes", {}};
+  Group group{"nodes"};
   for (const auto& placed : plan.nodes) {
     group.shapes.emplace_back(Circle{.centre = placed.at,
                                      .radius = plan.nodeRadius,
@@ -130,7 +130,7 @@ Group drawNodes(const PlanContents& plan) {
 }
 
 Group drawLabels(const PlanContents& plan) {
-  Group group{"labels", {}};
+  Group group{"labels"};
   LabelPlacer placer(plan);
   for (const auto& placed : plan.nodes) {
     const bool predicted = placed.node.kind == map::SubMapKind::kPredicted;

@@ -38,8 +38,7 @@ Line frameOf(const Panel& panel, Style style) {
   const Point down(0.0, panel.height());
   return {.points = {panel.corner, panel.corner + across, panel.corner + across + down, panel.corner + down},
           .closed = true,
-          .style = std::move(style),
-          .tip = {}};
+          .style = std::move(style)};
 }
 
 /// One pixel a block of cells, blocks being as large as half a unit of the page: finer would not be seen.
@@ -69,28 +68,23 @@ std::string nameOf(const map::Prediction& prediction) {
 }  // namespace
 
 Group drawGrids(const PlanContents& plan) {
-  Group group{"grid", {}};
+  Group group{"grid"};
   for (const auto& panel : plan.panels) {
-    group.shapes.emplace_back(frameOf(panel, {.fill = kUnknownColor, .stroke = {}, .dashes = {}}));
+    group.shapes.emplace_back(frameOf(panel, filled(kUnknownColor)));
     if (const auto raster = gridRaster(panel)) group.shapes.emplace_back(*raster);
-    group.shapes.emplace_back(
-        frameOf(panel, {.fill = {}, .stroke = withAlpha(kMutedColor, 0.5), .width = 0.6, .dashes = {}}));
+    group.shapes.emplace_back(frameOf(panel, stroked(withAlpha(kMutedColor, 0.5), 0.6)));
   }
   return group;
 }
 
 Group drawPredictedAreas(const PlanContents& plan) {
-  Group group{"predicted-areas", {}};
+  Group group{"predicted-areas"};
   for (const auto& prediction : plan.view.predictions()) {
     if (prediction.state != map::PredictionState::kOpen) continue;  // of the others, one has seen what is there
     const auto& placed = plan.getNode(prediction.node);
     for (const auto& area : prediction.areas) {
-      Line outline{.points = {},
-                   .closed = true,
-                   .style = {.fill = withAlpha(kPredictedColor, 0.13),
-                             .stroke = kPredictedColor,
-                             .width = 1.1,
-                             .dashes = {5.0, 3.0}},
+      Line outline{.closed = true,
+                   .style = filledAndStroked(withAlpha(kPredictedColor, 0.13), kPredictedColor, 1.1, {5.0, 3.0}),
                    .tip = nameOf(prediction) + ", threshold " + brief(area.threshold)};
       for (const auto& corner : area.outline_in_submap) {
         const Eigen::Vector3d point = placed.node.T_map_submap * Eigen::Vector3d(corner.x(), corner.y(), 0.0);
@@ -104,10 +98,8 @@ Group drawPredictedAreas(const PlanContents& plan) {
 
 Group drawTrajectory(const PlanContents& plan) {
   constexpr double kLeastStep = 0.6;  // units of the page; less would not be seen
-  Group group{"trajectory", {}};
-  Line line{.points = {},
-            .style = {.fill = {}, .stroke = withAlpha(kTrajectoryColor, 0.75), .width = 1.0, .dashes = {}},
-            .tip = {}};
+  Group group{"trajectory"};
+  Line line{.style = stroked(withAlpha(kTrajectoryColor, 0.75), 1.0)};
   const auto finish = [&] {
     if (line.points.size() > 1) group.shapes.emplace_back(line);
     line.points.clear();

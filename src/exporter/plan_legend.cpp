@@ -24,36 +24,35 @@ struct Entry {
 Entry lineEntry(const std::string& text, const Style& style) {
   return {text, [style](const Point& centre) -> std::vector<Shape> {
             const Point half(kSymbolWidth / 2 - 2.0, 0.0);
-            return {Line{.points = {centre - half, centre + half}, .style = style, .tip = {}}};
+            return {Line{.points = {centre - half, centre + half}, .style = style}};
           }};
 }
 
 Entry circleEntry(const std::string& text, const Style& style) {
   return {text, [style](const Point& centre) -> std::vector<Shape> {
-            return {Circle{.centre = centre, .radius = 6.0, .style = style, .tip = {}}};
+            return {Circle{.centre = centre, .radius = 6.0, .style = style}};
           }};
 }
 
 Entry swatchEntry(const std::string& text, const map::Rgba& color) {
   return {text, [color](const Point& centre) -> std::vector<Shape> {
-            const Style style{.fill = color, .stroke = withAlpha(kMutedColor, 0.6), .width = 0.6, .dashes = {}};
+            const Style style = filledAndStroked(color, withAlpha(kMutedColor, 0.6), 0.6);
             const double x = 8.0;
             const double y = 6.0;
             return {Line{
                 .points = {centre + Point(-x, -y), centre + Point(x, -y), centre + Point(x, y), centre + Point(-x, y)},
                 .closed = true,
-                .style = style,
-                .tip = {}}};
+                .style = style}};
           }};
 }
 
 /// Drawn facing up the page, so small that it fits into a row.
 Entry entityEntry(const std::string& text, const map::EntityAttributes& attributes, double scale, const Point& shift) {
   return {text, [=](const Point& centre) {
-            Eigen::Affine2d M_page_entity = Eigen::Affine2d::Identity();
-            M_page_entity.linear() << 0.0, -scale, -scale, 0.0;
-            M_page_entity.translation() = centre + shift;
-            return entitySymbol(attributes, M_page_entity);
+            Eigen::Affine2d T_page_entity = Eigen::Affine2d::Identity();
+            T_page_entity.linear() << 0.0, -scale, -scale, 0.0;
+            T_page_entity.translation() = centre + shift;
+            return entitySymbol(attributes, T_page_entity);
           }};
 }
 
@@ -69,8 +68,8 @@ Entry placesEntry(const PlanContents& plan) {
             std::vector<Shape> shapes;
             double x = -7.0;
             for (const int place : places) {
-              shapes.emplace_back(Circle{
-                  .centre = centre + Point(x, 0.0), .radius = 5.0, .style = observedNodeStyle(place), .tip = {}});
+              shapes.emplace_back(
+                  Circle{.centre = centre + Point(x, 0.0), .radius = 5.0, .style = observedNodeStyle(place)});
               x += 7.0;
               if (shapes.size() == 3) break;
             }
@@ -125,7 +124,7 @@ std::vector<Entry> entriesOf(const PlanContents& plan) {
   }
   if (observed) entries.push_back(placesEntry(plan));
   addEdgeEntries(plan, entries);
-  entries.push_back(lineEntry("trajectory", {.fill = {}, .stroke = kTrajectoryColor, .width = 1.2, .dashes = {}}));
+  entries.push_back(lineEntry("trajectory", stroked(kTrajectoryColor, 1.2)));
   addEntityEntries(plan, entries);
   if (predicted) entries.push_back(circleEntry("predicted, not yet seen", predictedNodeStyle()));
   return entries;
@@ -139,11 +138,11 @@ double drawScaleBar(const Panel& panel, double left, double middle, Group& group
     if (length * panel.scale <= kMost) metres = length;
   }
   const double length = metres * panel.scale;
-  const Style style{.fill = {}, .stroke = kInkColor, .width = 1.6, .dashes = {}};
+  const Style style = stroked(kInkColor, 1.6);
   const Point end(left + length, middle);
-  group.shapes.emplace_back(Line{.points = {{left, middle - 4}, {left, middle + 4}}, .style = style, .tip = {}});
-  group.shapes.emplace_back(Line{.points = {{left, middle}, end}, .style = style, .tip = {}});
-  group.shapes.emplace_back(Line{.points = {end + Point(0, -4), end + Point(0, 4)}, .style = style, .tip = {}});
+  group.shapes.emplace_back(Line{.points = {{left, middle - 4}, {left, middle + 4}}, .style = style});
+  group.shapes.emplace_back(Line{.points = {{left, middle}, end}, .style = style});
+  group.shapes.emplace_back(Line{.points = {end + Point(0, -4), end + Point(0, 4)}, .style = style});
   const std::string text = brief(metres, 1) + " m";
   group.shapes.emplace_back(Text{.at = end + Point(7.0, 4.0), .text = text, .size = kTextSize, .color = kInkColor});
   return length + 7.0 + textWidth(text, kTextSize);
@@ -152,7 +151,7 @@ double drawScaleBar(const Panel& panel, double left, double middle, Group& group
 }  // namespace
 
 std::pair<Group, double> drawLegend(const PlanContents& plan, double left, double top, double width) {
-  Group group{"legend", {}};
+  Group group{"legend"};
   double x = left + drawScaleBar(plan.panels.front(), left, top + kRow / 2, group) + 26.0;
   double middle = top + kRow / 2;
   for (const auto& entry : entriesOf(plan)) {

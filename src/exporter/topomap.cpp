@@ -108,7 +108,7 @@ std::string influenceZone() {
 std::string nodeItem(const map::MapView& view, const map::Node& node, const std::string& name) {
   const std::string id = toString(node.id);
   const Eigen::Vector3d t = node.T_map_submap.translation();
-  const Eigen::Quaterniond q(node.T_map_submap.linear());
+  const Eigen::Quaterniond q = quaternionOf(node.T_map_submap);
   return "- meta: {map: " + name + ", node: " + id + ", pointset: " + name + "}\n  node:\n    name: " + id +
          "\n    nav_frame: '${transformation.topo_frame_id}'\n    parent_frame: map\n    localise_by_topic: ''\n"
          "    pose:\n      orientation: {w: " +

@@ -16,7 +16,9 @@ namespace prodomos::test {
 /// lies on the cell `lowerLeft`.
 inline map::OccupancyGrid gridFromText(const std::vector<std::string_view>& lines, double resolution,
                                        geometry::CellIndex lowerLeft = {}) {
-  map::OccupancyGrid grid(map::OccupancyGridConfig{.resolution = resolution});
+  map::OccupancyGridConfig config;
+  config.resolution = resolution;
+  map::OccupancyGrid grid(config);
   for (std::size_t line = 0; line < lines.size(); ++line) {
     for (std::size_t column = 0; column < lines[line].size(); ++column) {
       const char drawn = lines[line][column];
@@ -73,6 +75,7 @@ class SampleMap {
     return {.id = {id},
             .session = {1},
             .floor = floor,
+            .place = std::nullopt,
             .T_map_submap = geometry::toPose3(pose, height),
             .T_travel_submap = geometry::toPose3({pose.x + 0.1, pose.y, pose.theta}, height),
             .begin = at(10.0 * (id - 1)),
@@ -153,7 +156,9 @@ class SampleMap {
                                   .expectedArea = 11.5,
                                   .areas = {wide, narrow},
                                   .made = at(12),
-                                  .state = map::PredictionState::kOpen});
+                                  .state = map::PredictionState::kOpen,
+                                  .settled = std::nullopt,
+                                  .mergedInto = std::nullopt});
   }
 
   static void addTrajectory(map::MapChange& change) {
