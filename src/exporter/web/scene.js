@@ -16,7 +16,7 @@ L.control.scale({ imperial: false, maxWidth: 120 }).addTo(map);
 
 // One path that paints all vectors, in layer pixels.
 const Painting = L.Path.extend({
-  options: { interactive: false },
+  initialize(options) { L.setOptions(this, options); },
   _project() { this._pxBounds = this._renderer._bounds; },
   _update() { this._updatePath(); },
   _updatePath() {
@@ -26,7 +26,7 @@ const Painting = L.Path.extend({
     paint(this._renderer._ctx, scale, ([x, y]) => [x * scale - origin.x, -y * scale - origin.y]);
   },
 });
-const painting = new Painting({ renderer: L.canvas({ padding: 0.3 }) });
+const painting = new Painting({ interactive: false, renderer: L.canvas({ padding: 0.3 }) });
 
 const images = new Map();  // by name: {overlay, url, palette}
 
