@@ -196,8 +196,7 @@ void TopView::add(const map::Drawing& drawing, const geometry::Pose3& T_map_subm
     for (int y = 0; y < raster.pixels.height() * perPixel; ++y) {
       for (int x = 0; x < raster.pixels.width() * perPixel; ++x) {
         const Eigen::Vector2d spot = raster.corner_in_submap + Eigen::Vector2d(x + 0.5, y + 0.5) * step;
-        set(T_map_submap * Eigen::Vector3d(spot.x(), spot.y(), 0.0), 0.0,
-            raster.pixels(x / perPixel, y / perPixel));
+        set(T_map_submap * Eigen::Vector3d(spot.x(), spot.y(), 0.0), 0.0, raster.pixels(x / perPixel, y / perPixel));
       }
     }
   }
@@ -226,7 +225,7 @@ PlacedImage TopView::image(int coarserBy) const {
         if (count == 0) continue;
         const auto mean = [&](std::size_t i) { return static_cast<std::uint8_t>(sum[i] / count); };
         pixels((key.x - tiles.first.x) * perTile + x, (key.y - tiles.first.y) * perTile + y) = {mean(0), mean(1),
-                                                                                                 mean(2), mean(3)};
+                                                                                                mean(2), mean(3)};
       }
     }
   }

@@ -17,7 +17,7 @@ namespace prodomos::exporter {
 
 /// A picture of a rectangle of a plane.
 struct PlacedImage {
-  std::string png;          ///< the bytes of the file
+  std::string png;         ///< the bytes of the file
   Eigen::Vector2d corner;  ///< the least x and y, metres
   Eigen::Vector2d size;    ///< along x and y, metres
 };

@@ -27,7 +27,8 @@ void flush(png_structp) {}
 class PngWriter {
  public:
   PngWriter(int width, int height, int bitDepth, int colorType)
-      : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, ignore)), info_(png_create_info_struct(png_)) {
+      : png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, ignore)),
+        info_(png_create_info_struct(png_)) {
     png_set_write_fn(png_, &bytes_, append, flush);
     png_set_user_limits(png_, 0x7fffffff, 0x7fffffff);
     png_set_IHDR(png_, info_, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), bitDepth, colorType,

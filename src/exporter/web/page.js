@@ -113,7 +113,7 @@ function switchRows() {
   const entities = name => data.entities.filter(entity => (kEntitySwitches[entity.class] || 'entities') === name).length;
   return [
     ['plan', 'Walls and free space', '<rect x="3" y="1" width="18" height="12" rx="2" style="fill:var(--free);stroke:var(--wall)"/>'],
-    ['places', 'Places in colour', '<circle cx="6" cy="7" r="4" style="fill:hsl(214 70% 62%);stroke:none"/><circle cx="13" cy="7" r="4" style="fill:hsl(351.5 70% 66%);stroke:none"/><circle cx="19" cy="7" r="4" style="fill:hsl(129 50% 56%);stroke:none"/>', data.totals.places],
+    ['places', 'Places in colour', '<circle cx="6" cy="7" r="4" style="fill:oklch(0.72 0.13 255);stroke:none"/><circle cx="13" cy="7" r="4" style="fill:oklch(0.75 0.13 32);stroke:none"/><circle cx="19" cy="7" r="4" style="fill:oklch(0.77 0.13 170);stroke:none"/>', data.totals.places],
     ...layerTypes.map(type => ['layer:' + type, words(type), [[5, 4], [9, 9], [13, 5], [17, 10], [20, 4]].map(([x, y]) => `<circle cx="${x}" cy="${y}" r="1.4" style="fill:var(--thing);stroke:none"/>`).join('')]),
     ['graph', 'Graph', '<path d="M6 10 18 4" style="stroke:var(--observed)"/><circle cx="5" cy="10" r="3" style="fill:var(--observed);stroke:none"/><circle cx="19" cy="4" r="3" style="fill:var(--observed);stroke:none"/>', data.nodes.length],
     ['labels', 'Labels', '<text x="12" y="11" text-anchor="middle" style="font:600 11px system-ui,sans-serif;fill:currentColor;stroke:none">s12</text>'],
@@ -166,12 +166,12 @@ function makeHeader() {
     [number(totals.submaps), totals.submaps === 1 ? 'sub-map' : 'sub-maps'],
     totals.places > 1 && [number(totals.places), 'places'],
     data.floors.length > 1 && [number(data.floors.length), 'floors'],
-    [metres(totals.distance, totals.distance < 100 ? 1 : 0), 'travelled'],
-    [number(totals.area, totals.area < 100 ? 1 : 0) + ' m²', 'free floor'],
+    [metres(totals.distance, totals.distance < 100 ? 1 : 0), 'travelled', 'plain'],
+    [number(totals.area, totals.area < 100 ? 1 : 0) + ' m²', 'free floor', 'plain'],
   ];
-  byName('totals').append(...rows.filter(Boolean).map(([amount, name]) => element('div', {}, element('dt', {}, name), element('dd', {}, amount))));
+  byName('totals').append(...rows.filter(Boolean).map(([amount, name, look]) => element('div', { class: look }, element('dt', {}, name), element('dd', {}, amount))));
   const sessions = data.sessions.map(session => [session.kind, session.poses && `poses: ${session.poses}`].filter(Boolean).join(', '));
-  byName('credit').textContent = [...new Set(sessions)].concat(`prodomos ${data.version}`, `Leaflet ${L.version}`).join(' · ');
+  byName('credit').textContent = [...new Set(sessions)].concat(`prodomos ${data.version}`, 'Leaflet').join(' · ');
   byName('empty').hidden = data.nodes.length > 0;
 }
 
@@ -246,7 +246,7 @@ function makePointer() {
     hint.setLatLng(thing.from || thing.areas ? event.latlng : at(positionOf(thing))).setContent(element('div', {}, thing.id, element('span', {}, kind.replace('_', ' ')))).addTo(map);
   });
   map.on('mouseout zoomstart', () => hint.remove());
-  map.on('zoomend', () => byName('map').classList.toggle('crisp', map.getZoom() > 4));
+  map.on('zoomend', () => byName('map').classList.toggle('crisp', map.getZoom() > 5.2));
   map.on('moveend', remember);
   byName('zoom-in').addEventListener('click', () => map.zoomIn());
   byName('zoom-out').addEventListener('click', () => map.zoomOut());

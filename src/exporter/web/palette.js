@@ -3,21 +3,19 @@
 
 // Colours. They stand in page.css, light and dark; canvas and plan take them from there.
 
-const kPlaceHues = 12;
+const kPlaceHues = 11;
 
 const colors = {};
 
 function readColors() {
   const style = getComputedStyle(document.documentElement);
   const names = ['ground', 'free', 'free-faint', 'wall', 'wall-faint', 'ink', 'ink-soft', 'accent', 'observed', 'predicted',
-    'door', 'stairs', 'loop', 'human', 'thing', 'travelled', 'refined', 'halo', 'place-lightness', 'place-saturation'];
+    'door', 'stairs', 'loop', 'human', 'thing', 'travelled', 'refined', 'halo', 'place-tint'];
   for (const name of names) colors[name] = style.getPropertyValue('--' + name).trim();
 }
 
-// Neighbouring numbers get hues far apart: steps of the golden angle.
-const placeHue = place => (214 + place * 137.508) % 360;
-const placeTint = place => `hsl(${placeHue(place)} ${colors['place-saturation']} ${colors['place-lightness']})`;
-const placeInk = place => `hsl(${placeHue(place)} 62% 52%)`;
+// Neighbouring numbers get hues far apart: steps of the golden angle, all alike in lightness.
+const placeTint = place => `oklch(${colors['place-tint']} ${(255 + (place % kPlaceHues) * 137.508) % 360})`;
 
 const kEntityColors = { door: 'door', staircase: 'stairs', human: 'human' };
 const entityColor = entity => colors[kEntityColors[entity.class] || 'thing'];
@@ -31,10 +29,10 @@ function rgb(color) {
   return [...scratch.getImageData(0, 0, 1, 1).data].slice(0, 3);
 }
 
-// The 16 colours of plan images, in the order of html_images.hpp: unknown, wall, faint wall, faint free, then free floor
-// by place.
+// The 16 colours of plan images, in the order of html_images.hpp: unknown, wall, faint wall, faint free, free floor of no
+// place, then free floor by place.
 function planPalette(byPlace) {
-  const palette = [colors.ground, colors.wall, colors['wall-faint'], colors['free-faint']].map(rgb);
+  const palette = [colors.ground, colors.wall, colors['wall-faint'], colors['free-faint'], colors.free].map(rgb);
   for (let hue = 0; hue < kPlaceHues; ++hue) palette.push(rgb(byPlace ? placeTint(hue) : colors.free));
   return palette;
 }

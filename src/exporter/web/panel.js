@@ -57,7 +57,7 @@ function clock(seconds) {
 function span(begin, end) {
   const [first, last] = [clock(begin), clock(end)];
   const sameDay = first.length === 19 && first.slice(0, 10) === last.slice(0, 10);
-  return `${first} – ${sameDay ? last.slice(11) : last}`;
+  return sameDay ? [first.slice(0, 10), element('br'), `${first.slice(11)} – ${last.slice(11)}`] : `${first} – ${last}`;
 }
 
 function value(thing) {
@@ -70,7 +70,7 @@ function value(thing) {
 // ---- parts
 
 const facts = rows => element('dl', { class: 'facts' }, rows.filter(row => row && row[1] !== null && row[1] !== undefined && row[1] !== '')
-  .map(([name, text]) => [element('dt', {}, name), element('dd', {}, text)]));
+  .map(([name, text]) => [element('dt', {}, name), element('dd', {}, ...[text].flat())]));
 
 const part = (title, ...children) => element('section', {}, element('h3', {}, title), ...children);
 
@@ -139,7 +139,7 @@ function nodePanel(node) {
     facts([
       ['Pose', pose(node.pose)],
       !predicted && ['Time', span(node.begin, node.end)],
-      !predicted && ['Lasted', duration(node.end - node.begin)],
+      !predicted && ['Took', duration(node.end - node.begin)],
       !predicted && ['Distance', metres(node.distance)],
       !predicted && ['Readings', number(node.readings)],
       node.moved > 0.005 && ['Moved by refinement', metres(node.moved)],

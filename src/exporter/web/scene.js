@@ -179,8 +179,7 @@ function paintNodes(ctx, px) {
   }
 }
 
-const nodeColor = node => node.kind === 'predicted' ? colors.predicted
-  : state.on.places && node.place !== null ? placeInk(node.place) : colors.observed;
+const nodeColor = node => colors[node.kind === 'predicted' ? 'predicted' : 'observed'];
 
 // A disc with a beak where its x-axis points.
 function paintNode(ctx, [x, y], node, ghost) {
@@ -279,12 +278,12 @@ function floorBounds() {
   const bounds = L.latLngBounds([]);
   for (const floor of data.floors) {
     if (state.floor !== null && floor.number !== state.floor) continue;
-    for (const image of [floor.plan, ...floor.layers.map(layer => layer.image)]) {
-      if (!image) continue;
+    for (const image of floor.plan ? [floor.plan] : floor.layers.map(layer => layer.image).filter(Boolean)) {
       bounds.extend(at(image.corner)).extend(at([image.corner[0] + image.size[0], image.corner[1] + image.size[1]]));
     }
   }
   data.nodes.filter(onFloor).forEach(node => bounds.extend(at(node.pose)));
+  data.predictions.filter(onFloor).forEach(prediction => prediction.areas.forEach(area => area.outline.forEach(point => bounds.extend(at(point)))));
   return bounds.isValid() ? bounds : L.latLngBounds(at([-5, -5]), at([5, 5]));
 }
 
