@@ -11,8 +11,12 @@
 namespace prodomos::exporter {
 namespace {
 
-constexpr std::size_t kMostPlanPixels = 36'000'000;  // of all floors together
-constexpr std::size_t kMostLayerBytes = 5'000'000;   // of all layers and floors together, as PNG
+constexpr std::size_t kMostPlanPixels = 36'000'000;     // of all floors together
+constexpr std::size_t kMostOverviewPixels = 1'500'000;  // of one floor: for looking at all of it
+constexpr std::size_t kMostLayerBytes = 5'000'000;      // of all layers and floors together, as PNG
+
+// A door found a little too narrow must not let places leak into one another.
+constexpr double kDoorFrame = 0.1;  // metres a side
 
 std::vector<PlaceSeed> placeSeeds(const map::MapView& view, std::optional<int> floor) {
   std::vector<PlaceSeed> seeds;
@@ -29,7 +33,7 @@ std::vector<DoorSegment> doorSegments(const map::MapView& view, std::optional<in
     const auto* door = std::get_if<map::Door>(&entity.attributes);
     if (door == nullptr || !onFloor(view.graph().getNode(entity.submap).floor, floor)) continue;
     const auto T_map_door = poseInMap(view, entity);
-    const Eigen::Vector3d jamb(0.0, door->width / 2.0, 0.0);
+    const Eigen::Vector3d jamb(0.0, door->width / 2.0 + kDoorFrame, 0.0);
     doors.push_back({(T_map_door * -jamb).head<2>(), (T_map_door * jamb).head<2>()});
   }
   return doors;
@@ -131,6 +135,7 @@ Json pointsJson(const Polyline& points) {
 
 Json imageJson(const PlacedImage& image) {
   return {{"png", base64(image.png)},
+          {"pixel", rounded(image.pixel)},
           {"corner", {rounded(image.corner.x()), rounded(image.corner.y())}},
           {"size", {rounded(image.size.x()), rounded(image.size.y())}}};
 }
@@ -142,11 +147,16 @@ HtmlFloors htmlFloors(const map::MapView& view) {
   for (const auto number : numbers) {
     const auto grid = map::fuseGrids(view, number);
     floors.freeArea += freeAreaOf(grid);
-    const auto plan =
-        planImage(grid, placeSeeds(view, number), doorSegments(view, number), kMostPlanPixels / numbers.size());
+    const auto seeds = placeSeeds(view, number);
+    const auto doors = doorSegments(view, number);
+    const auto plan = planImage(grid, seeds, doors, kMostPlanPixels / numbers.size());
+    // Browsers shrink walls to nothing; a coarser picture whose pixels are wall where any cell is does not.
+    auto overview = planImage(grid, seeds, doors, kMostOverviewPixels);
+    if (overview && overview->pixel == plan->pixel) overview.reset();
     floors.json.push_back({{"number", optionalJson(number)},
                            {"height", heightOf(view, number)},
                            {"plan", plan ? imageJson(*plan) : Json(nullptr)},
+                           {"overview", overview ? imageJson(*overview) : Json(nullptr)},
                            {"layers", Json::array()}});
     scenes.push_back(layerScenes(view, number, grid.resolution()));
   }

@@ -12,7 +12,7 @@ namespace prodomos::exporter {
 Json rounded(double value, double unit = 1e-3);
 /// [[x, y], …], to a millimetre.
 Json pointsJson(const Polyline& points);
-/// {"png": base64, "corner": [x, y], "size": [x, y]}.
+/// {"png": base64, "pixel": metres, "corner": [x, y], "size": [x, y]}.
 Json imageJson(const PlacedImage& image);
 
 /// What lies below the graph: for each floor the plan and what its layers look like from above.

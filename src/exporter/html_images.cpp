@@ -140,8 +140,9 @@ sensors::Image<std::uint8_t> headingUp(const sensors::Image<std::uint8_t>& image
   return out;
 }
 
-PlacedImage placed(std::string png, CellIndex first, int width, int height, double resolution) {
-  return {std::move(png), Eigen::Vector2d(first.x, first.y) * resolution, Eigen::Vector2d(width, height) * resolution};
+PlacedImage placed(std::string png, CellIndex first, int width, int height, double resolution, int factor) {
+  return {std::move(png), Eigen::Vector2d(first.x, first.y) * resolution, Eigen::Vector2d(width, height) * resolution,
+          resolution * factor};
 }
 
 }  // namespace
@@ -158,7 +159,7 @@ std::optional<PlacedImage> planImage(const map::OccupancyGrid& grid, const std::
   // A last pixel that is not full reaches beyond the box.
   const int width = indices.width() * factor;
   const int height = indices.height() * factor;
-  return placed(encodePng(upright(indices), plainPalette()), box.first, width, height, grid.resolution());
+  return placed(encodePng(upright(indices), plainPalette()), box.first, width, height, grid.resolution(), factor);
 }
 
 std::optional<PlacedImage> thumbnailImage(const map::OccupancyGrid& grid, int mostPixels) {
@@ -167,7 +168,7 @@ std::optional<PlacedImage> thumbnailImage(const map::OccupancyGrid& grid, int mo
   const int factor = (std::max(box.width(), box.height()) + mostPixels - 1) / mostPixels;
   const auto indices = coarser(indicesOf(grid, box), factor);
   return placed(encodePng(headingUp(indices), plainPalette()), box.first, indices.width() * factor,
-                indices.height() * factor, grid.resolution());
+                indices.height() * factor, grid.resolution(), factor);
 }
 
 void TopView::set(const Eigen::Vector3d& position_in_map, double heightAboveFloor, map::Rgba color) {
@@ -230,8 +231,8 @@ PlacedImage TopView::image(int coarserBy) const {
     }
   }
   const CellIndex first{tiles.first.x * kTileCells, tiles.first.y * kTileCells};
-  return placed(encodePng(upright(pixels)), first, tiles.width() * kTileCells, tiles.height() * kTileCells,
-                resolution_);
+  return placed(encodePng(upright(pixels)), first, tiles.width() * kTileCells, tiles.height() * kTileCells, resolution_,
+                coarserBy);
 }
 
 std::string base64(std::string_view bytes) {

@@ -20,6 +20,7 @@ struct PlacedImage {
   std::string png;         ///< the bytes of the file
   Eigen::Vector2d corner;  ///< the least x and y, metres
   Eigen::Vector2d size;    ///< along x and y, metres
+  double pixel = 0.0;      ///< edge length of one, metres
 };
 
 /// What the sixteen colours of plans and thumbnails stand for. The page sets the colours themselves (palette.js).

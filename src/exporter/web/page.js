@@ -246,7 +246,10 @@ function makePointer() {
     hint.setLatLng(thing.from || thing.areas ? event.latlng : at(positionOf(thing))).setContent(element('div', {}, thing.id, element('span', {}, kind.replace('_', ' ')))).addTo(map);
   });
   map.on('mouseout zoomstart', () => hint.remove());
-  map.on('zoomend', () => byName('map').classList.toggle('crisp', map.getZoom() > 5.2));
+  map.on('zoomend', () => {
+    byName('map').classList.toggle('crisp', map.getZoom() > 5.2);
+    drawScene();
+  });
   map.on('moveend', remember);
   byName('zoom-in').addEventListener('click', () => map.zoomIn());
   byName('zoom-out').addEventListener('click', () => map.zoomOut());
@@ -335,10 +338,10 @@ function start() {
   const linked = readHash();
   if (linked.floor !== null && data.floors.some(floor => floor.number === linked.floor)) state.floor = linked.floor;
   else if (memory && data.floors.some(floor => floor.number === memory.floor)) state.floor = memory.floor;
-  setFloor(state.floor);
-  showLayers(Boolean(memory && memory.layers));
   fit(false);
   painting.addTo(map);
+  setFloor(state.floor);
+  showLayers(Boolean(memory && memory.layers));
   if (memory) map.setView(memory.centre, memory.zoom, { animate: false });
   if (linked.id) select(linked.id, memory ? { centre: false } : { centre: true, zoom: Math.max(map.getZoom(), 4.5), animate: false });
   addEventListener('hashchange', () => {

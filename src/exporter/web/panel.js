@@ -60,12 +60,17 @@ function span(begin, end) {
   return sameDay ? [first.slice(0, 10), element('br'), `${first.slice(11)} – ${last.slice(11)}`] : `${first} – ${last}`;
 }
 
+const kUnits = { width: 'm', height: 'm', step_width: 'm', step_height: 'm', step_depth: 'm', size: 'm', velocity: 'm/s', area: 'm²' };
+
 function value(thing) {
   if (Array.isArray(thing)) return thing.map(part => typeof part === 'number' ? number(part) : value(part)).join(', ');
   if (typeof thing === 'number') return number(thing, 3);
   if (typeof thing === 'boolean') return thing ? 'yes' : 'no';
   return thing === null ? '–' : typeof thing === 'object' ? JSON.stringify(thing) : String(thing);
 }
+
+// ["Step width", "0.9 m"].
+const attribute = ([name, held]) => [words(name), value(held) + (kUnits[name] ? ' ' + kUnits[name] : '')];
 
 // ---- parts
 
@@ -149,7 +154,7 @@ function nodePanel(node) {
     predictions.length > 0 && part('Predictions', links(predictions.map(prediction => link(prediction, prediction.state, percent(prediction.probability))))),
     entities.length > 0 && part('Entities', links(entities.map(entity => link(entity, words(entity.class).toLowerCase(), percent(entity.confidence))))),
     node.layers.length > 0 && part('Layers', node.layers.map(layer => [element('p', { class: 'sub' }, words(layer.type)),
-      layer.fault ? element('p', {}, layer.fault) : facts(layer.summary)])),
+      layer.fault ? element('p', {}, layer.fault) : facts(layer.summary.map(([name, text]) => [words(name), text]))])),
   ];
 }
 
@@ -184,7 +189,7 @@ function entityPanel(entity) {
       ['Confidence', percent(entity.confidence)],
       ['Seen', plural(entity.observations, 'time')],
       ['Between', span(entity.firstSeen, entity.lastSeen)],
-      ...Object.entries(entity.attributes).filter(([, held]) => !Array.isArray(held) || held.length < 4).map(([name, held]) => [words(name), value(held)]),
+      ...Object.entries(entity.attributes).filter(([, held]) => !Array.isArray(held) || held.length < 4).map(attribute),
     ]),
     predictions.length > 0 && part('Predicts', links(predictions.map(prediction => link(prediction, prediction.state, percent(prediction.probability))))),
     submap && part('Held by', links([link(submap, placeName(submap.place))])),

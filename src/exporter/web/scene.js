@@ -41,12 +41,20 @@ function showImage(name, image, palette) {
   return overlay.addTo(map);
 }
 
+// Whether cells are so small on the screen that the overview shows more of the walls.
+const seenFromAfar = floor => Boolean(floor.overview) && map.options.crs.scale(map.getZoom()) * floor.plan.pixel < 0.7;
+
 function drawScene() {
   const palette = JSON.stringify(planPalette(state.on.places));
   const wanted = new Set();
   data.floors.forEach((floor, index) => {
     if (state.floor !== null && floor.number !== state.floor) return;
-    if (floor.plan && state.on.plan) { wanted.add('plan' + index); showImage('plan' + index, floor.plan, palette); }
+    if (floor.plan && state.on.plan) {
+      const coarse = seenFromAfar(floor);
+      const name = (coarse ? 'overview' : 'plan') + index;
+      wanted.add(name);
+      showImage(name, coarse ? floor.overview : floor.plan, palette);
+    }
     for (const layer of floor.layers) {
       const name = layer.type + index;
       if (layer.image && state.on['layer:' + layer.type]) { wanted.add(name); showImage(name, layer.image, null); }
@@ -139,7 +147,11 @@ function paintEdges(ctx, px) {
     const dash = predicted ? [5, 5] : edge.kind === 'loop' ? [2, 4] : [];
     const width = Math.max(1.25, nodeRadius * 0.28);
     const points = [from.pose, to.pose];
-    if (edge.id === state.selection) line(ctx, px, points, colors.halo, width + 7);
+    if (edge.id === state.selection) {
+      ctx.globalAlpha = 0.35;
+      line(ctx, px, points, edgeColor(edge), width + 10);
+      ctx.globalAlpha = 1;
+    }
     line(ctx, px, points, colors.halo, width + 2);
     line(ctx, px, points, predicted && edge.kind === 'travelled' ? colors.predicted : edgeColor(edge),
          edge.id === state.selection ? width + 2.5 : width, dash);
@@ -151,8 +163,12 @@ const entityShown = entity => state.on[kEntitySwitches[entity.class] || 'entitie
 function paintEntity(ctx, px, entity) {
   const color = entityColor(entity);
   const width = entity.class === 'door' ? 4 : 2;
+  if (entity.id === state.selection) {
+    ctx.globalAlpha = 0.35;
+    for (const points of entity.shape) line(ctx, px, points, color, width + 9);
+    ctx.globalAlpha = 1;
+  }
   for (const points of entity.shape) {
-    if (entity.id === state.selection) line(ctx, px, points, colors.ink, width + 5);
     line(ctx, px, points, colors.halo, width + 2);
     line(ctx, px, points, color, width);
   }
