@@ -63,17 +63,21 @@ Json outlineOf(const PlacedImage& thumbnail, const geometry::Pose3& T_map_submap
   return pointsJson(outline);
 }
 
-Json layersOf(const map::MapView& view, base::SubMapId id) {
-  Json layers = Json::array();
-  for (const auto& type : view.layersOf(id)) {
-    const auto layer = view.findLayer(id, type);
-    if (layer) {
-      layers.push_back({{"type", type}, {"summary", layer->summary()}});
-    } else {
-      layers.push_back({{"type", type}, {"fault", "A layer that this version of prodomos does not know."}});
+/// What its layers hold in numbers, and a thumbnail of its grid.
+void addLayers(Json& out, const map::MapView& view, const map::Node& node) {
+  for (const auto& type : view.layersOf(node.id)) {
+    const auto layer = view.findLayer(node.id, type);
+    if (!layer) {
+      out["layers"].push_back({{"type", type}, {"fault", "A layer that this version of prodomos does not know."}});
+      continue;
     }
+    out["layers"].push_back({{"type", type}, {"summary", layer->summary()}});
+    const auto* grid = dynamic_cast<const map::OccupancyGrid*>(layer.get());
+    const auto thumbnail = grid != nullptr ? thumbnailImage(*grid, kThumbnailPixels) : std::nullopt;
+    if (!thumbnail) continue;
+    out["outline"] = outlineOf(*thumbnail, node.T_map_submap);
+    out["thumb"] = imageJson(*thumbnail);
   }
-  return layers;
 }
 
 Json nodeOf(const map::MapView& view, const map::Node& node) {
@@ -88,15 +92,10 @@ Json nodeOf(const map::MapView& view, const map::Node& node) {
            {"readings", node.readings},
            {"pose", poseOf(node.T_map_submap)},
            {"moved", rounded(moved(view, node))},
-           {"layers", layersOf(view, node.id)},
+           {"layers", Json::array()},
            {"outline", nullptr},
            {"thumb", nullptr}};
-  const auto grid = view.findLayer<map::OccupancyGrid>(node.id);
-  const auto thumbnail = grid ? thumbnailImage(*grid, kThumbnailPixels) : std::nullopt;
-  if (thumbnail) {
-    out["outline"] = outlineOf(*thumbnail, node.T_map_submap);
-    out["thumb"] = imageJson(*thumbnail);
-  }
+  addLayers(out, view, node);
   return out;
 }
 

@@ -147,16 +147,14 @@ HtmlFloors htmlFloors(const map::MapView& view) {
   for (const auto number : numbers) {
     const auto grid = map::fuseGrids(view, number);
     floors.freeArea += freeAreaOf(grid);
-    const auto seeds = placeSeeds(view, number);
-    const auto doors = doorSegments(view, number);
-    const auto plan = planImage(grid, seeds, doors, kMostPlanPixels / numbers.size());
-    // Browsers shrink walls to nothing; a coarser picture whose pixels are wall where any cell is does not.
-    auto overview = planImage(grid, seeds, doors, kMostOverviewPixels);
-    if (overview && overview->pixel == plan->pixel) overview.reset();
+    // Browsers shrink walls to nothing; an overview whose pixels are wall where any of their cells is does not.
+    const auto plans = planImages(grid, placeSeeds(view, number), doorSegments(view, number),
+                                  {kMostPlanPixels / numbers.size(), kMostOverviewPixels});
+    const bool overview = !plans.empty() && plans[1].pixel > plans[0].pixel;
     floors.json.push_back({{"number", optionalJson(number)},
                            {"height", heightOf(view, number)},
-                           {"plan", plan ? imageJson(*plan) : Json(nullptr)},
-                           {"overview", overview ? imageJson(*overview) : Json(nullptr)},
+                           {"plan", plans.empty() ? Json(nullptr) : imageJson(plans[0])},
+                           {"overview", overview ? imageJson(plans[1]) : Json(nullptr)},
                            {"layers", Json::array()}});
     scenes.push_back(layerScenes(view, number, grid.resolution()));
   }

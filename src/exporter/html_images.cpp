@@ -147,19 +147,22 @@ PlacedImage placed(std::string png, CellIndex first, int width, int height, doub
 
 }  // namespace
 
-std::optional<PlacedImage> planImage(const map::OccupancyGrid& grid, const std::vector<PlaceSeed>& seeds,
-                                     const std::vector<DoorSegment>& doors, std::size_t mostPixels) {
+std::vector<PlacedImage> planImages(const map::OccupancyGrid& grid, const std::vector<PlaceSeed>& seeds,
+                                    const std::vector<DoorSegment>& doors, const std::vector<std::size_t>& mostPixels) {
   const auto box = grid.knownBox();
-  if (box.empty()) return std::nullopt;
+  if (box.empty()) return {};
   auto indices = indicesOf(grid, box);
   spreadPlaces(indices, box, grid.resolution(), seeds, doors);
-  const double excess = static_cast<double>(indices.size()) / static_cast<double>(mostPixels);
-  const int factor = std::max(1, static_cast<int>(std::ceil(std::sqrt(excess))));
-  if (factor > 1) indices = coarser(indices, factor);
-  // A last pixel that is not full reaches beyond the box.
-  const int width = indices.width() * factor;
-  const int height = indices.height() * factor;
-  return placed(encodePng(upright(indices), plainPalette()), box.first, width, height, grid.resolution(), factor);
+  std::vector<PlacedImage> images;
+  for (const auto most : mostPixels) {
+    const double excess = static_cast<double>(indices.size()) / static_cast<double>(most);
+    const int factor = std::max(1, static_cast<int>(std::ceil(std::sqrt(excess))));
+    const auto pixels = factor > 1 ? coarser(indices, factor) : indices;
+    // A last pixel that is not full reaches beyond the box.
+    images.push_back(placed(encodePng(upright(pixels), plainPalette()), box.first, pixels.width() * factor,
+                            pixels.height() * factor, grid.resolution(), factor));
+  }
+  return images;
 }
 
 std::optional<PlacedImage> thumbnailImage(const map::OccupancyGrid& grid, int mostPixels) {

@@ -37,9 +37,10 @@ struct DoorSegment {
   Eigen::Vector2d end_in_map;
 };
 
-/// y up; none where nothing is known. Coarser than the grid where that has more than `mostPixels` cells.
-std::optional<PlacedImage> planImage(const map::OccupancyGrid& grid, const std::vector<PlaceSeed>& seeds,
-                                     const std::vector<DoorSegment>& doors, std::size_t mostPixels);
+/// y up; one for each limit of `mostPixels`, coarser than the grid where that has more cells. Empty where nothing is
+/// known.
+std::vector<PlacedImage> planImages(const map::OccupancyGrid& grid, const std::vector<PlaceSeed>& seeds,
+                                    const std::vector<DoorSegment>& doors, const std::vector<std::size_t>& mostPixels);
 
 /// A sub-map's own grid, x up and y to the left, at most `mostPixels` wide and high.
 std::optional<PlacedImage> thumbnailImage(const map::OccupancyGrid& grid, int mostPixels);

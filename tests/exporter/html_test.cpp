@@ -168,15 +168,16 @@ TEST_F(HtmlPage, SaysWhereItCannotWrite) {
   EXPECT_THROW(writeHtml(view, folder_ / "missing" / "page.html", {}), base::FileError);
 }
 
-TEST(PlanImage, IsCoarserWhereTheGridIsTooLarge) {
+TEST(PlanImages, AreCoarserWhereTheGridIsTooLarge) {
   const auto grid = lane(10.0);
-  const auto fine = planImage(grid, {}, {}, 1'000'000);
-  const auto coarse = planImage(grid, {}, {}, 60);
-  ASSERT_TRUE(fine && coarse);
-  EXPECT_EQ(pngSize(fine->png).first, 201);
-  EXPECT_LE(pngSize(coarse->png).first, 101);
-  EXPECT_NEAR(coarse->size.x(), fine->size.x(), 0.2);
-  EXPECT_FALSE(planImage(map::OccupancyGrid(), {}, {}, 100));
+  const auto images = planImages(grid, {}, {}, {1'000'000, 60});
+  ASSERT_EQ(images.size(), 2U);
+  EXPECT_EQ(pngSize(images[0].png).first, 201);
+  EXPECT_EQ(images[0].pixel, grid.resolution());
+  EXPECT_LE(pngSize(images[1].png).first, 101);
+  EXPECT_GT(images[1].pixel, grid.resolution());
+  EXPECT_NEAR(images[1].size.x(), images[0].size.x(), 0.2);
+  EXPECT_TRUE(planImages(map::OccupancyGrid(), {}, {}, {100}).empty());
 }
 
 TEST(ThumbnailImage, LiesWithTheHeadingUp) {
