@@ -78,37 +78,61 @@ std::vector<bool> closedCells(const CellBox& box, double resolution, const std::
   return closed;
 }
 
-/// Free cells take the place of the seed that is nearest over free cells.
+/// Cells beside a wall: where the laser grazed one, there are holes in it that no robot and no place passes.
+std::vector<bool> cellsBesideWalls(const sensors::Image<std::uint8_t>& indices) {
+  std::vector<bool> beside(indices.size());
+  for (int y = 1; y + 1 < indices.height(); ++y) {
+    for (int x = 1; x + 1 < indices.width(); ++x) {
+      if (weight(indices(x, y)) < 3) continue;
+      for (int i = 0; i < 9; ++i) {
+        const int cell = (y + i / 3 - 1) * indices.width() + x + i % 3 - 1;
+        beside[static_cast<std::size_t>(cell)] = true;
+      }
+    }
+  }
+  return beside;
+}
+
+/// Free cells take the place of the seed that is nearest over free cells; those beside walls come last.
 void spreadPlaces(sensors::Image<std::uint8_t>& indices, const CellBox& box, double resolution,
                   const std::vector<PlaceSeed>& seeds, const std::vector<DoorSegment>& doors) {
   const auto closed = closedCells(box, resolution, doors);
-  const auto offset = [&](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(box.width()) + static_cast<std::size_t>(x);
-  };
+  const auto besideWall = cellsBesideWalls(indices);
   std::vector<bool> visited(closed.size());
   std::deque<std::pair<CellIndex, std::uint8_t>> front;
-  const auto visit = [&](CellIndex cell, std::uint8_t color) {
+  std::deque<std::pair<CellIndex, std::uint8_t>> later;
+  const auto visit = [&](CellIndex cell, std::uint8_t color, bool mayWait) {
     if (cell.x < 0 || cell.y < 0 || cell.x >= box.width() || cell.y >= box.height()) return;
-    const auto at = offset(cell.x, cell.y);
+    const auto at =
+        static_cast<std::size_t>(cell.y) * static_cast<std::size_t>(box.width()) + static_cast<std::size_t>(cell.x);
     auto& index = indices.data()[at];
     if (visited[at] || closed[at] || weight(index) == 0 || weight(index) > 2) return;
+    if (mayWait && besideWall[at]) {
+      later.emplace_back(cell, color);
+      return;
+    }
     visited[at] = true;
     if (index == kFreeWithoutPlace) index = color;
     front.emplace_back(cell, color);
   };
+  const auto spread = [&](bool mayWait) {
+    while (!front.empty()) {
+      const auto [cell, color] = front.front();
+      front.pop_front();
+      visit({cell.x + 1, cell.y}, color, mayWait);
+      visit({cell.x - 1, cell.y}, color, mayWait);
+      visit({cell.x, cell.y + 1}, color, mayWait);
+      visit({cell.x, cell.y - 1}, color, mayWait);
+    }
+  };
   for (const auto& seed : seeds) {
     const CellIndex cell = geometry::cellAt(seed.position_in_map.x(), seed.position_in_map.y(), resolution);
     const int hue = ((seed.place % kPlaceHues) + kPlaceHues) % kPlaceHues;
-    visit({cell.x - box.first.x, cell.y - box.first.y}, static_cast<std::uint8_t>(kFreeOfFirstPlace + hue));
+    visit({cell.x - box.first.x, cell.y - box.first.y}, static_cast<std::uint8_t>(kFreeOfFirstPlace + hue), false);
   }
-  while (!front.empty()) {
-    const auto [cell, color] = front.front();
-    front.pop_front();
-    visit({cell.x + 1, cell.y}, color);
-    visit({cell.x - 1, cell.y}, color);
-    visit({cell.x, cell.y + 1}, color);
-    visit({cell.x, cell.y - 1}, color);
-  }
+  spread(true);
+  for (const auto& [cell, color] : later) visit(cell, color, false);
+  spread(false);
 }
 
 /// One pixel for factor x factor cells.
@@ -221,7 +245,8 @@ PlacedImage TopView::image(int coarserBy) const {
         for (int i = 0; i < coarserBy * coarserBy; ++i) {
           const int cellX = x * coarserBy + i % coarserBy;
           const int cellY = y * coarserBy + i / coarserBy;
-          const auto& color = tile.colors[static_cast<std::size_t>(cellY * kTileCells + cellX)];
+          const auto& color =
+              tile.colors[static_cast<std::size_t>(cellY) * kTileCells + static_cast<std::size_t>(cellX)];
           if (color.a == 0) continue;
           sum = {sum[0] + color.r, sum[1] + color.g, sum[2] + color.b, sum[3] + color.a};
           ++count;

@@ -58,9 +58,10 @@ class TopView {
 
  private:
   static constexpr int kTileCells = 256;
+  static constexpr std::size_t kPixelsOfTile = std::size_t{kTileCells} * kTileCells;
   struct Tile {
-    std::vector<map::Rgba> colors = std::vector<map::Rgba>(kTileCells * kTileCells, map::Rgba{0, 0, 0, 0});
-    std::vector<float> heights = std::vector<float>(kTileCells * kTileCells, -std::numeric_limits<float>::infinity());
+    std::vector<map::Rgba> colors = std::vector<map::Rgba>(kPixelsOfTile, map::Rgba{0, 0, 0, 0});
+    std::vector<float> heights = std::vector<float>(kPixelsOfTile, -std::numeric_limits<float>::infinity());
   };
   void set(const Eigen::Vector3d& position_in_map, double heightAboveFloor, map::Rgba color);
 

@@ -58,9 +58,6 @@ const tests = {
     await page.keyboard.press('Escape');
     assert.equal(await page.locator('#panel').isHidden(), true);
     assert.equal(hash(page), '#floor=0');
-    // A deep link has put s3 in the middle of what the side card leaves free.
-    const beside = (await page.locator('#panel, #side').first().boundingBox()).width;
-    assert.ok(beside > 100);
     await page.evaluate(() => { location.hash = '#node=s3'; });
     await page.waitForSelector('#panel:not([hidden])');
     assert.equal(await heading(page), 's3');
@@ -76,11 +73,11 @@ const tests = {
 
   async 'a click on the map picks the nearest thing, one beside it nothing'() {
     const page = await open('house.html', { hash: '#node=s4' });
+    // The link has put s4 in the middle of what the cards leave free.
     const spot = await page.evaluate(() => {
       const [side, panel] = ['side', 'panel'].map(id => document.getElementById(id).getBoundingClientRect());
       return { x: (side.right + panel.left) / 2, y: (24 + innerHeight - 44) / 2 };
     });
-    await page.mouse.click(spot.x + 3, spot.y + 150);
     await page.mouse.click(spot.x, spot.y - 330);
     assert.equal(await page.locator('#panel').isHidden(), true, 'nothing lies there');
     await page.mouse.click(spot.x, spot.y);
