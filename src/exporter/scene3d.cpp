@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "exporter/scene3d.hpp"
+
+#include "prodomos/map/fused_grid.hpp"
+
+#include "exporter/contents.hpp"
+#include "exporter/drawn_objects.hpp"
+#include "exporter/entity_drawing.hpp"
+#include "exporter/formats.hpp"
+#include "exporter/mrpt_file.hpp"
+#include "exporter/palette.hpp"
+
+#include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/CSphere.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace prodomos::exporter {
+namespace {
+
+using Eigen::Vector3d;
+using mrpt::opengl::CSetOfObjects;
+
+constexpr double kNodeHeight = 1.6;         // above the floor: over what is seen, below the next floor
+constexpr float kNodeRadius = 0.22F;        // metres
+constexpr double kTrajectoryHeight = 0.03;  // above the plane of the floor
+constexpr map::Rgba kBackground{250, 249, 247, 255};
+
+Vector3d lifted(const map::Node& node) {
+  return node.T_map_submap * Vector3d(0.0, 0.0, kNodeHeight);
+}
+
+CSetOfObjects::Ptr group(const std::string& name) {
+  auto objects = CSetOfObjects::Create();
+  objects->setName(name);
+  return objects;
+}
+
+/// The fused grid of each floor, at its height.
+CSetOfObjects::Ptr floorObjects(const map::MapView& view, const Pen& pen) {
+  auto objects = group("floors");
+  for (const auto floor : floorsOf(view)) {
+    auto drawing = map::fuseGrids(view, floor).draw();
+    for (auto& raster : drawing.rasters) {
+      for (auto& pixel : std::span(raster.pixels.data(), raster.pixels.size())) {
+        if (pixel == kUnknownColor) pixel.a = 0;
+      }
+    }
+    const auto known = std::ranges::find_if(view.floors(), [&](const auto& row) { return row.number == floor; });
+    const double height = known == view.floors().end() ? 0.0 : known->height;
+    auto plane = toObjects(drawing, pen);
+    plane->setLocation(0.0, 0.0, height);
+    objects->insert(plane);
+  }
+  return objects;
+}
+
+/// What the layers of the sub-maps draw; the grids are in the floors already.
+CSetOfObjects::Ptr layerObjects(const map::MapView& view, const Pen& pen) {
+  auto objects = group("layers");
+  for (const auto& node : observedNodes(view)) {
+    for (const auto& type : view.layersOf(node.id)) {
+      const auto layer = type == map::OccupancyGrid::kTypeId ? nullptr : view.findLayer(node.id, type);
+      if (!layer) continue;
+      auto drawn = toObjects(layer->draw(), pen);
+      drawn->setName(toString(node.id) + " " + type);
+      drawn->setPose(toMrpt(node.T_map_submap));
+      objects->insert(drawn);
+    }
+  }
+  return objects;
+}
+
+CSetOfObjects::Ptr entityObjects(const map::MapView& view, const Pen& pen) {
+  auto objects = group("entities");
+  for (const auto& entity : view.entities()) {
+    auto drawn = toObjects(drawEntity(entity), pen);
+    drawn->setName(toString(entity.id));
+    drawn->setPose(toMrpt(view.graph().getNode(entity.submap).T_map_submap));
+    objects->insert(drawn);
+  }
+  return objects;
+}
+
+/// Outlines of the floor that is expected and not seen.
+CSetOfObjects::Ptr predictionObjects(const map::MapView& view, const Pen& pen) {
+  auto objects = group("predictions");
+  for (const auto& prediction : view.predictions()) {
+    const auto* node = view.graph().findNode(prediction.node);
+    if (node == nullptr) continue;
+    map::Drawing drawing;
+    for (const auto& area : prediction.areas) {
+      map::DrawnLine outline{{}, kPredictedColor, ""};
+      for (const auto& point : area.outline_in_submap)
+        outline.points_in_submap.emplace_back(point.x(), point.y(), 0.02);
+      if (!outline.points_in_submap.empty()) outline.points_in_submap.push_back(outline.points_in_submap.front());
+      drawing.lines.push_back(std::move(outline));
+    }
+    auto drawn = toObjects(drawing, pen);
+    drawn->setName(toString(prediction.id));
+    drawn->setPose(toMrpt(node->T_map_submap));
+    objects->insert(drawn);
+  }
+  return objects;
+}
+
+CSetOfObjects::Ptr trajectoryObjects(const map::MapView& view, const Pen& pen) {
+  auto objects = group("trajectory");
+  std::map<base::SessionId, map::DrawnLine> lines;
+  for (const auto& point : view.trajectory()) {
+    auto& line = lines.try_emplace(point.session, map::DrawnLine{{}, kTrajectoryColor, ""}).first->second;
+    line.points_in_submap.emplace_back(point.T_map_body * Vector3d(0.0, 0.0, kTrajectoryHeight));
+  }
+  for (auto& [session, line] : lines) {
+    map::Drawing drawing;
+    drawing.lines.push_back(std::move(line));
+    auto drawn = toObjects(drawing, pen);
+    drawn->setName(toString(session));
+    objects->insert(drawn);
+  }
+  return objects;
+}
+
+map::Rgba edgeColor(map::EdgeKind kind) {
+  switch (kind) {
+    case map::EdgeKind::kTravelled:
+      return kInkColor;
+    case map::EdgeKind::kDoor:
+      return kDoorColor;
+    case map::EdgeKind::kStairs:
+    case map::EdgeKind::kLift:
+      return kStairsColor;
+    case map::EdgeKind::kLoop:
+      return kLoopColor;
+  }
+  return kInkColor;
+}
+
+/// Nodes above their floors, each on a stem that stands on its origin, and the edges between them.
+CSetOfObjects::Ptr graphObjects(const map::MapView& view, const Pen& pen) {
+  auto objects = group("graph");
+  map::Drawing stems;
+  for (const auto id : view.graph().nodes()) {
+    const auto& node = view.graph().getNode(id);
+    const bool predicted = node.kind == map::SubMapKind::kPredicted;
+    const auto color = predicted ? kPredictedColor : placeColor(node.place);
+    auto sphere = mrpt::opengl::CSphere::Create(kNodeRadius);
+    sphere->setName(toString(id));
+    sphere->setColor_u8(toMrpt(withAlpha(color, predicted ? 0.6 : 1.0)));
+    sphere->setLocation(toMrpt(lifted(node)));
+    objects->insert(sphere);
+    stems.lines.push_back({{node.T_map_submap.translation(), lifted(node)}, kMutedColor, ""});
+  }
+  objects->insert(toObjects(stems, pen));
+  for (const auto id : view.graph().edges()) {
+    const auto& edge = view.graph().getEdge(id);
+    const auto from = lifted(view.graph().getNode(edge.from));
+    const auto to = lifted(view.graph().getNode(edge.to));
+    auto line = mrpt::opengl::CSetOfLines::Create();
+    line->setName(toString(id));
+    line->setColor_u8(toMrpt(edgeColor(edge.kind)));
+    line->setLineWidth(pen.line(3.0));
+    line->appendLine(toMrpt(from), toMrpt(to));
+    objects->insert(line);
+  }
+  return objects;
+}
+
+CSetOfObjects::Ptr labelObjects(const map::MapView& view, const Pen& pen) {
+  auto objects = group("labels");
+  for (const auto id : view.graph().nodes()) {
+    const Vector3d above = lifted(view.graph().getNode(id)) + Vector3d(0.0, 0.0, 2.0 * kNodeRadius);
+    objects->insert(toLabel(toString(id), above, kInkColor, pen));
+  }
+  return objects;
+}
+
+}  // namespace
+
+mrpt::opengl::COpenGLScene::Ptr makeScene(const map::MapView& view, const Pen& pen) {
+  auto scene = mrpt::opengl::COpenGLScene::Create();
+  scene->insert(floorObjects(view, pen));
+  scene->insert(layerObjects(view, pen));
+  scene->insert(predictionObjects(view, pen));
+  scene->insert(entityObjects(view, pen));
+  scene->insert(trajectoryObjects(view, pen));
+  scene->insert(graphObjects(view, pen));
+  scene->insert(labelObjects(view, pen));
+  scene->getViewport()->setCustomBackgroundColor(mrpt::img::TColorf(toMrpt(kBackground)));
+  return scene;
+}
+
+Viewpoint overview(const mrpt::opengl::COpenGLScene& scene, double widthToHeight) {
+  constexpr double kMargin = 1.04;
+  constexpr auto kRadians = std::numbers::pi / 180.0;
+
+  const auto box = scene.getBoundingBox();
+  const Vector3d least(box.min.x, box.min.y, box.min.z);
+  const Vector3d most(box.max.x, box.max.y, box.max.z);
+  Viewpoint viewpoint{.target = 0.5 * (least + most), .elevation = 55.0};
+  // From the south, as a plan is read; long maps from their long side.
+  viewpoint.azimuth = most.y() - least.y() > 1.2 * (most.x() - least.x()) ? 0.0 : -90.0;
+  const double azimuth = viewpoint.azimuth * kRadians;
+  const double elevation = viewpoint.elevation * kRadians;
+  const Vector3d back(std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation),
+                      std::sin(elevation));
+  const Vector3d right = Vector3d::UnitZ().cross(back).normalized();
+  const Vector3d up = back.cross(right);
+
+  const double tangent = std::tan(0.5 * viewpoint.fieldOfView * kRadians);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3d point((corner & 1) != 0 ? most.x() : least.x(), (corner & 2) != 0 ? most.y() : least.y(),
+                         (corner & 4) != 0 ? most.z() : least.z());
+    const Vector3d offset = point - viewpoint.target;
+    const double aside = std::max(std::abs(offset.dot(up)), std::abs(offset.dot(right)) / widthToHeight);
+    viewpoint.distance = std::max(viewpoint.distance, offset.dot(back) + kMargin * aside / tangent);
+  }
+  return viewpoint;
+}
+
+void setCamera(mrpt::opengl::COpenGLScene& scene, const Viewpoint& viewpoint) {
+  auto viewport = scene.getViewport();
+  auto& camera = viewport->getCamera();
+  camera.setProjectiveFOVdeg(static_cast<float>(viewpoint.fieldOfView));
+  camera.setPointingAt(toMrpt(viewpoint.target));
+  camera.setAzimuthDegrees(static_cast<float>(viewpoint.azimuth));
+  camera.setElevationDegrees(static_cast<float>(viewpoint.elevation));
+  camera.setZoomDistance(static_cast<float>(viewpoint.distance));
+  viewport->setViewportClipDistances(static_cast<float>(viewpoint.leastDepth()),
+                                     static_cast<float>(viewpoint.greatestDepth()));
+}
+
+void writeScene3d(const map::MapView& view, const Path& path) {
+  const auto scene = makeScene(view);
+  setCamera(*scene, overview(*scene, 1.6));
+  writeMrptFile(path, *scene);
+}
+
+}  // namespace prodomos::exporter
