@@ -18,6 +18,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <span>
 
 namespace prodomos::exporter {
 namespace {
@@ -40,18 +41,39 @@ CSetOfObjects::Ptr group(const std::string& name) {
   return objects;
 }
 
+double heightOf(const map::MapView& view, std::optional<int> floor) {
+  const auto row = std::ranges::find_if(view.floors(), [&](const auto& each) { return each.number == floor; });
+  return row == view.floors().end() ? 0.0 : row->height;
+}
+
+Eigen::AlignedBox3d extentOf(const map::OccupancyGrid& grid, double height) {
+  geometry::CellBox walls;
+  const auto known = grid.knownBox();
+  for (int y = known.first.y; y <= known.last.y; ++y) {
+    for (int x = known.first.x; x <= known.last.x; ++x) {
+      if (grid.state({x, y}) == map::CellState::kOccupied) walls.add({x, y});
+    }
+  }
+  Eigen::AlignedBox3d extent;
+  if (walls.empty()) return extent;
+  extent.extend(Vector3d(walls.first.x * grid.resolution(), walls.first.y * grid.resolution(), height));
+  extent.extend(Vector3d((walls.last.x + 1) * grid.resolution(), (walls.last.y + 1) * grid.resolution(), height));
+  return extent;
+}
+
 /// The fused grid of each floor, at its height.
-CSetOfObjects::Ptr floorObjects(const map::MapView& view, const Pen& pen) {
+CSetOfObjects::Ptr floorObjects(const map::MapView& view, const Pen& pen, Eigen::AlignedBox3d& extent) {
   auto objects = group("floors");
   for (const auto floor : floorsOf(view)) {
-    auto drawing = map::fuseGrids(view, floor).draw();
+    const auto grid = map::fuseGrids(view, floor);
+    const double height = heightOf(view, floor);
+    extent.extend(extentOf(grid, height));
+    auto drawing = grid.draw();
     for (auto& raster : drawing.rasters) {
       for (auto& pixel : std::span(raster.pixels.data(), raster.pixels.size())) {
         if (pixel == kUnknownColor) pixel.a = 0;
       }
     }
-    const auto known = std::ranges::find_if(view.floors(), [&](const auto& row) { return row.number == floor; });
-    const double height = known == view.floors().end() ? 0.0 : known->height;
     auto plane = toObjects(drawing, pen);
     plane->setLocation(0.0, 0.0, height);
     objects->insert(plane);
@@ -181,27 +203,28 @@ CSetOfObjects::Ptr labelObjects(const map::MapView& view, const Pen& pen) {
 
 }  // namespace
 
-mrpt::opengl::COpenGLScene::Ptr makeScene(const map::MapView& view, const Pen& pen) {
-  auto scene = mrpt::opengl::COpenGLScene::Create();
-  scene->insert(floorObjects(view, pen));
-  scene->insert(layerObjects(view, pen));
-  scene->insert(predictionObjects(view, pen));
-  scene->insert(entityObjects(view, pen));
-  scene->insert(trajectoryObjects(view, pen));
-  scene->insert(graphObjects(view, pen));
-  scene->insert(labelObjects(view, pen));
-  scene->getViewport()->setCustomBackgroundColor(mrpt::img::TColorf(toMrpt(kBackground)));
+Scene makeScene(const map::MapView& view, const Pen& pen) {
+  Scene scene{mrpt::opengl::COpenGLScene::Create(), {}};
+  scene.objects->insert(floorObjects(view, pen, scene.extent_in_map));
+  scene.objects->insert(layerObjects(view, pen));
+  scene.objects->insert(predictionObjects(view, pen));
+  scene.objects->insert(entityObjects(view, pen));
+  scene.objects->insert(trajectoryObjects(view, pen));
+  scene.objects->insert(graphObjects(view, pen));
+  scene.objects->insert(labelObjects(view, pen));
+  scene.objects->getViewport()->setCustomBackgroundColor(mrpt::img::TColorf(toMrpt(kBackground)));
+  for (const auto id : view.graph().nodes()) scene.extent_in_map.extend(lifted(view.graph().getNode(id)));
+  if (scene.extent_in_map.isEmpty()) scene.extent_in_map.extend(Vector3d::Zero());
   return scene;
 }
 
-Viewpoint overview(const mrpt::opengl::COpenGLScene& scene, double widthToHeight) {
-  constexpr double kMargin = 1.04;
+Viewpoint overview(const Eigen::AlignedBox3d& extent, double widthToHeight) {
+  constexpr double kMargin = 1.06;
   constexpr auto kRadians = std::numbers::pi / 180.0;
 
-  const auto box = scene.getBoundingBox();
-  const Vector3d least(box.min.x, box.min.y, box.min.z);
-  const Vector3d most(box.max.x, box.max.y, box.max.z);
-  Viewpoint viewpoint{.target = 0.5 * (least + most), .elevation = 55.0};
+  const Vector3d least = extent.min();
+  const Vector3d most = extent.max();
+  Viewpoint viewpoint{.target = extent.center(), .elevation = 55.0};
   // From the south, as a plan is read; long maps from their long side.
   viewpoint.azimuth = most.y() - least.y() > 1.2 * (most.x() - least.x()) ? 0.0 : -90.0;
   const double azimuth = viewpoint.azimuth * kRadians;
@@ -236,8 +259,8 @@ void setCamera(mrpt::opengl::COpenGLScene& scene, const Viewpoint& viewpoint) {
 
 void writeScene3d(const map::MapView& view, const Path& path) {
   const auto scene = makeScene(view);
-  setCamera(*scene, overview(*scene, 1.6));
-  writeMrptFile(path, *scene);
+  setCamera(*scene.objects, overview(scene.extent_in_map, 1.6));
+  writeMrptFile(path, *scene.objects);
 }
 
 }  // namespace prodomos::exporter

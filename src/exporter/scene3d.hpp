@@ -6,12 +6,18 @@
 
 #include "exporter/drawn_objects.hpp"
 
+#include <Eigen/Geometry>
 #include <mrpt/opengl/COpenGLScene.h>
 
 /// The map as a scene of MRPT's: one plane a floor, what each sub-map's layers draw, the graph lifted above its floors.
 namespace prodomos::exporter {
 
-mrpt::opengl::COpenGLScene::Ptr makeScene(const map::MapView& view, const Pen& pen = {});
+struct Scene {
+  mrpt::opengl::COpenGLScene::Ptr objects;
+  Eigen::AlignedBox3d extent_in_map;  ///< of walls and nodes; free space seen through windows may lie outside
+};
+
+Scene makeScene(const map::MapView& view, const Pen& pen = {});
 
 /// Where a camera stands and looks.
 struct Viewpoint {
@@ -28,8 +34,8 @@ struct Viewpoint {
   bool operator==(const Viewpoint&) const = default;
 };
 
-/// Sees all of the scene, from above and aside, as near as its sides allow.
-Viewpoint overview(const mrpt::opengl::COpenGLScene& scene, double widthToHeight);
+/// Sees all of the box, from above and aside, as near as its corners allow.
+Viewpoint overview(const Eigen::AlignedBox3d& extent, double widthToHeight);
 void setCamera(mrpt::opengl::COpenGLScene& scene, const Viewpoint& viewpoint);
 
 }  // namespace prodomos::exporter

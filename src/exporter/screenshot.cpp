@@ -46,8 +46,8 @@ sensors::Image<map::Rgba> halved(const mrpt::img::CImage& image, int width, int 
 
 void renderScreenshot(const map::MapView& view, const std::filesystem::path& png, int width, int height) {
   const auto scene = makeScene(view, Pen{.pixels = 2.0});
-  setCamera(*scene, overview(*scene, static_cast<double>(width) / height));
-  const auto image = render(*scene, static_cast<unsigned>(2 * width), static_cast<unsigned>(2 * height));
+  setCamera(*scene.objects, overview(scene.extent_in_map, static_cast<double>(width) / height));
+  const auto image = render(*scene.objects, static_cast<unsigned>(2 * width), static_cast<unsigned>(2 * height));
   writeFile(png, toPng(halved(image, width, height)));
 }
 

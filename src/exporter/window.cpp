@@ -38,8 +38,8 @@ class Window {
 
   /// The camera moves only where its user has left it alone.
   void show(const map::MapView& view) {
-    const auto fresh = makeScene(view);
-    const auto viewpoint = overview(*fresh, static_cast<double>(kWidth) / kHeight);
+    const auto [fresh, extent] = makeScene(view);
+    const auto viewpoint = overview(extent, static_cast<double>(kWidth) / kHeight);
     setCamera(*fresh, viewpoint);
     fresh->getViewport()->addTextMessage(10, 10, kHelp, 0, helpFont());
     for (const auto& part : hidden_) fresh->getByName(part)->setVisibility(false);
