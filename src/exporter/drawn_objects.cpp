@@ -69,7 +69,7 @@ void addPoints(const std::vector<map::DrawnPoint>& points, const Pen& pen, CSetO
   for (const auto& [position, color] : points) {
     cloud->insertPoint({position.x(), position.y(), position.z(), color.r, color.g, color.b, color.a});
   }
-  cloud->setPointSize(pen.line(2.0));
+  cloud->setPointSize(pen.line(1.2));
   cloud->enableVariablePointSize(false);
   objects.insert(cloud);
 }

@@ -27,8 +27,10 @@ using Eigen::Vector3d;
 using mrpt::opengl::CSetOfObjects;
 
 constexpr double kNodeHeight = 1.6;         // above the floor: over what is seen, below the next floor
-constexpr float kNodeRadius = 0.22F;        // metres
-constexpr double kTrajectoryHeight = 0.03;  // above the plane of the floor
+constexpr double kNodeRadius = 0.22;        // metres; more on large maps
+constexpr double kNodeShare = 0.0055;       // of the map's diagonal
+constexpr double kTrajectoryHeight = 0.03;  // above the floor
+constexpr double kPlaneHeight = -0.08;      // below the points of lasers whose height a log does not know
 constexpr map::Rgba kBackground{250, 249, 247, 255};
 
 Vector3d lifted(const map::Node& node) {
@@ -71,11 +73,11 @@ CSetOfObjects::Ptr floorObjects(const map::MapView& view, const Pen& pen, Eigen:
     auto drawing = grid.draw();
     for (auto& raster : drawing.rasters) {
       for (auto& pixel : std::span(raster.pixels.data(), raster.pixels.size())) {
-        if (pixel == kUnknownColor) pixel.a = 0;
+        if (pixel == kUnknownColor) pixel = withAlpha(kBackground, 0.0);  // seen through, and at the rims of others
       }
     }
     auto plane = toObjects(drawing, pen);
-    plane->setLocation(0.0, 0.0, height);
+    plane->setLocation(0.0, 0.0, height + kPlaneHeight);
     objects->insert(plane);
   }
   return objects;
@@ -163,14 +165,14 @@ map::Rgba edgeColor(map::EdgeKind kind) {
 }
 
 /// Nodes above their floors, each on a stem that stands on its origin, and the edges between them.
-CSetOfObjects::Ptr graphObjects(const map::MapView& view, const Pen& pen) {
+CSetOfObjects::Ptr graphObjects(const map::MapView& view, const Pen& pen, double radius) {
   auto objects = group("graph");
   map::Drawing stems;
   for (const auto id : view.graph().nodes()) {
     const auto& node = view.graph().getNode(id);
     const bool predicted = node.kind == map::SubMapKind::kPredicted;
     const auto color = predicted ? kPredictedColor : placeColor(node.place);
-    auto sphere = mrpt::opengl::CSphere::Create(kNodeRadius);
+    auto sphere = mrpt::opengl::CSphere::Create(static_cast<float>(radius));
     sphere->setName(toString(id));
     sphere->setColor_u8(toMrpt(withAlpha(color, predicted ? 0.6 : 1.0)));
     sphere->setLocation(toMrpt(lifted(node)));
@@ -192,10 +194,10 @@ CSetOfObjects::Ptr graphObjects(const map::MapView& view, const Pen& pen) {
   return objects;
 }
 
-CSetOfObjects::Ptr labelObjects(const map::MapView& view, const Pen& pen) {
+CSetOfObjects::Ptr labelObjects(const map::MapView& view, const Pen& pen, double radius) {
   auto objects = group("labels");
   for (const auto id : view.graph().nodes()) {
-    const Vector3d above = lifted(view.graph().getNode(id)) + Vector3d(0.0, 0.0, 2.0 * kNodeRadius);
+    const Vector3d above = lifted(view.graph().getNode(id)) + Vector3d(0.0, 0.0, 1.2 * radius);
     objects->insert(toLabel(toString(id), above, kInkColor, pen));
   }
   return objects;
@@ -210,11 +212,15 @@ Scene makeScene(const map::MapView& view, const Pen& pen) {
   scene.objects->insert(predictionObjects(view, pen));
   scene.objects->insert(entityObjects(view, pen));
   scene.objects->insert(trajectoryObjects(view, pen));
-  scene.objects->insert(graphObjects(view, pen));
-  scene.objects->insert(labelObjects(view, pen));
-  scene.objects->getViewport()->setCustomBackgroundColor(mrpt::img::TColorf(toMrpt(kBackground)));
   for (const auto id : view.graph().nodes()) scene.extent_in_map.extend(lifted(view.graph().getNode(id)));
   if (scene.extent_in_map.isEmpty()) scene.extent_in_map.extend(Vector3d::Zero());
+  const double radius = std::max(kNodeRadius, kNodeShare * scene.extent_in_map.diagonal().norm());
+  scene.objects->insert(graphObjects(view, pen, radius));
+  scene.objects->insert(labelObjects(view, pen, radius));
+  auto viewport = scene.objects->getViewport();
+  viewport->setCustomBackgroundColor(mrpt::img::TColorf(toMrpt(kBackground)));
+  viewport->lightParameters().ambient = {0.65F, 0.65F, 0.65F, 1.0F};  // colours are read, not only shapes
+  viewport->lightParameters().specular = {0.2F, 0.2F, 0.2F, 1.0F};
   return scene;
 }
 
