@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "exporter/drawn_objects.hpp"
 
+#include "exporter/palette.hpp"
+
 #include <mrpt/img/CImage.h>
 #include <mrpt/opengl/CBox.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
@@ -37,9 +39,11 @@ mrpt::opengl::CTexturedPlane::Ptr toPlane(const map::DrawnRaster& raster, const 
     auto* bgr = color.ptrLine<std::uint8_t>(static_cast<unsigned>(y));
     auto* alpha = opacity.ptrLine<std::uint8_t>(static_cast<unsigned>(y));
     for (int x = 0; x < tile.width; ++x, ++pixel) {
-      *bgr++ = pixel->b;
-      *bgr++ = pixel->g;
-      *bgr++ = pixel->r;
+      // Between pixels colours are mixed: transparent black would draw dark rims.
+      const auto shown = pixel->a == 0 ? kFreeColor : *pixel;
+      *bgr++ = shown.b;
+      *bgr++ = shown.g;
+      *bgr++ = shown.r;
       *alpha++ = pixel->a;
       visible |= pixel->a != 0;
     }

@@ -18,7 +18,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <span>
 
 namespace prodomos::exporter {
 namespace {
@@ -30,8 +29,8 @@ constexpr double kNodeHeight = 1.6;         // above the floor: over what is see
 constexpr double kNodeRadius = 0.22;        // metres; more on large maps
 constexpr double kNodeShare = 0.0055;       // of the map's diagonal
 constexpr double kTrajectoryHeight = 0.03;  // above the floor
-constexpr double kPlaneHeight = -0.08;      // below the points of lasers whose height a log does not know
-constexpr map::Rgba kBackground{250, 249, 247, 255};
+constexpr double kPlaneDepth = 0.08;        // below the points of lasers whose height a log does not know
+constexpr double kPlaneShare = 0.003;       // of the map's diagonal: depth is coarse where the camera stands far off
 
 Vector3d lifted(const map::Node& node) {
   return node.T_map_submap * Vector3d(0.0, 0.0, kNodeHeight);
@@ -70,14 +69,8 @@ CSetOfObjects::Ptr floorObjects(const map::MapView& view, const Pen& pen, Eigen:
     const auto grid = map::fuseGrids(view, floor);
     const double height = heightOf(view, floor);
     extent.extend(extentOf(grid, height));
-    auto drawing = grid.draw();
-    for (auto& raster : drawing.rasters) {
-      for (auto& pixel : std::span(raster.pixels.data(), raster.pixels.size())) {
-        if (pixel == kUnknownColor) pixel = withAlpha(kBackground, 0.0);  // seen through, and at the rims of others
-      }
-    }
-    auto plane = toObjects(drawing, pen);
-    plane->setLocation(0.0, 0.0, height + kPlaneHeight);
+    auto plane = toObjects(grid.draw(), pen);
+    plane->setLocation(0.0, 0.0, height - std::max(kPlaneDepth, kPlaneShare * extent.diagonal().norm()));
     objects->insert(plane);
   }
   return objects;
@@ -187,7 +180,7 @@ CSetOfObjects::Ptr graphObjects(const map::MapView& view, const Pen& pen, double
     auto line = mrpt::opengl::CSetOfLines::Create();
     line->setName(toString(id));
     line->setColor_u8(toMrpt(edgeColor(edge.kind)));
-    line->setLineWidth(pen.line(3.0));
+    line->setLineWidth(pen.line(4.0));
     line->appendLine(toMrpt(from), toMrpt(to));
     objects->insert(line);
   }
@@ -218,7 +211,7 @@ Scene makeScene(const map::MapView& view, const Pen& pen) {
   scene.objects->insert(graphObjects(view, pen, radius));
   scene.objects->insert(labelObjects(view, pen, radius));
   auto viewport = scene.objects->getViewport();
-  viewport->setCustomBackgroundColor(mrpt::img::TColorf(toMrpt(kBackground)));
+  viewport->setCustomBackgroundColor(mrpt::img::TColorf(toMrpt(kUnknownColor)));
   viewport->lightParameters().ambient = {0.65F, 0.65F, 0.65F, 1.0F};  // colours are read, not only shapes
   viewport->lightParameters().specular = {0.2F, 0.2F, 0.2F, 1.0F};
   return scene;
@@ -228,8 +221,8 @@ Viewpoint overview(const Eigen::AlignedBox3d& extent, double widthToHeight) {
   constexpr double kMargin = 1.06;
   constexpr auto kRadians = std::numbers::pi / 180.0;
 
-  const Vector3d least = extent.min();
-  const Vector3d most = extent.max();
+  const Vector3d& least = extent.min();
+  const Vector3d& most = extent.max();
   Viewpoint viewpoint{.target = extent.center(), .elevation = 55.0};
   // From the south, as a plan is read; long maps from their long side.
   viewpoint.azimuth = most.y() - least.y() > 1.2 * (most.x() - least.x()) ? 0.0 : -90.0;

@@ -27,9 +27,9 @@ struct Viewpoint {
   double distance = 1.0;      ///< metres from the target
   double fieldOfView = 30.0;  ///< degrees, vertical
 
-  /// The default range of MRPT's is so wide that what stands in front is drawn behind the floors.
-  double leastDepth() const { return 0.02 * distance; }
-  double greatestDepth() const { return 5.0 * distance; }
+  /// With the wide default range of MRPT's, what stands in front is drawn behind the floors.
+  double leastDepth() const { return 0.4 * distance; }
+  double greatestDepth() const { return 3.0 * distance; }
 
   bool operator==(const Viewpoint&) const = default;
 };
