@@ -60,6 +60,7 @@ class Window {
         if (key == letter) toggle(part);
       }
     }
+    fitDepths();
     window_.forceRepaint();
   }
 
@@ -90,9 +91,15 @@ class Window {
     window_.setCameraElevationDeg(static_cast<float>(all_.elevation));
     window_.setCameraZoom(static_cast<float>(all_.distance));
     window_.setFOV(static_cast<float>(all_.fieldOfView));
-    window_.setMinRange(static_cast<float>(all_.leastDepth()));
-    window_.setMaxRange(static_cast<float>(all_.greatestDepth()));
+    fitDepths();
     aimed_ = camera();
+  }
+
+  /// Whoever zooms in comes nearer than the overview's range of depths allows.
+  void fitDepths() {
+    const auto viewpoint = camera();
+    window_.setMinRange(static_cast<float>(viewpoint.leastDepth()));
+    window_.setMaxRange(static_cast<float>(viewpoint.greatestDepth() + all_.distance));
   }
 
   void toggle(const std::string& part) {
