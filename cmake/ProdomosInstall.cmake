@@ -15,6 +15,8 @@ function(prodomos_package_of library result)
     set(package "Boost")
   elseif(library MATCHES "^Boost::(.+)$")
     set(package "Boost COMPONENTS ${CMAKE_MATCH_1}")
+  elseif(library MATCHES "^PkgConfig::(.+)$")
+    set(package "pkg-config ${CMAKE_MATCH_1} ${${CMAKE_MATCH_1}_MODULE_NAME}")
   elseif(library MATCHES "^([^:]+)::[^:]+$")
     set(package "${CMAKE_MATCH_1}") # Eigen3::Eigen, SQLite::SQLite3, ZLIB::ZLIB, nlohmann_json::nlohmann_json
     string(REGEX REPLACE "^SQLite$" "SQLite3" package "${package}")
@@ -66,7 +68,4 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/prodomosConfigVersion.cma
 install(FILES ${PROJECT_BINARY_DIR}/prodomosConfig.cmake ${PROJECT_BINARY_DIR}/prodomosConfigVersion.cmake
               cmake/FindOpenCV.cmake
         DESTINATION ${prodomos_cmake_dir} COMPONENT base)
-if(TARGET prodomos)
-  install(TARGETS prodomos COMPONENT program)
-endif()
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
