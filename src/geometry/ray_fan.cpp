@@ -33,28 +33,27 @@ int lastCellBefore(double units) {
 
 }  // namespace
 
-void RayFan::trace(const Eigen::Vector2d& origin, std::span<const Eigen::Vector2d> ends, const Visitor& visit) {
-  visit_ = &visit;
+/// Sorts the rays by direction; returns the cells of the origin's own row.
+RayFan::Span RayFan::begin(const Eigen::Vector2d& origin, std::span<const Eigen::Vector2d> ends) {
   originX_ = toUnits(origin.x());
   const std::int32_t originY = toUnits(origin.y());
   originRow_ = cellOf(originY);
-  const double riseUp = (originRow_ + 1) * kUnitsPerCell - originY;
-  const double riseDown = originY - originRow_ * kUnitsPerCell;
+  riseUp_ = (originRow_ + 1) * kUnitsPerCell - originY;
+  riseDown_ = originY - originRow_ * kUnitsPerCell;
 
   up_.clear();
   down_.clear();
-  Span ownRow{cellOf(originX_), cellOf(originX_)};
-  const auto extendOwnRow = [&](Span span) {
-    ownRow.first = std::min(ownRow.first, span.first);
-    ownRow.last = std::max(ownRow.last, span.last);
+  Span own{cellOf(originX_), cellOf(originX_)};
+  const auto extendOwn = [&own](int cell) {
+    own.first = std::min(own.first, cell);
+    own.last = std::max(own.last, cell);
   };
-
   for (const auto& end : ends) {
     const std::int32_t x = toUnits(end.x());
     const std::int32_t y = toUnits(end.y());
     const int row = cellOf(y);
     if (row == originRow_) {
-      extendOwnRow({cellOf(x), cellOf(x)});
+      extendOwn(cellOf(x));
       continue;
     }
     const bool up = row > originRow_;
@@ -64,18 +63,14 @@ void RayFan::trace(const Eigen::Vector2d& origin, std::span<const Eigen::Vector2
     ray.slope = ray.dx / ray.dy;
     ray.endRow = up ? row - originRow_ : originRow_ - row;
     ray.endCell = cellOf(x);
-    rise_ = up ? riseUp : riseDown;
-    // The own row is crossed from the origin to the upper border.
+    rise_ = up ? riseUp_ : riseDown_;
     const double above = crossing(ray, 0);
-    extendOwnRow(ray.dx > 0 ? Span{cellOf(originX_), lastCellBefore(above)}
-                            : Span{floorCell(above), cellOf(originX_)});
+    extendOwn(ray.dx > 0 ? lastCellBefore(above) : floorCell(above));
     (up ? up_ : down_).push_back(ray);
   }
-  if (!ends.empty()) visit(originRow_, std::span(&ownRow, 1));
-  rise_ = riseUp;
-  sweepUpwards(up_, false);
-  rise_ = riseDown;
-  sweepUpwards(down_, true);
+  sortFromRightToLeft(up_);
+  sortFromRightToLeft(down_);
+  return own;
 }
 
 /// Where the ray crosses the upper border of a row, 1/256 cells. Divided last, so that a corner comes out exactly.
@@ -118,28 +113,21 @@ void RayFan::sortFromRightToLeft(std::vector<Ray>& rays) {
   std::sort(rays.begin(), rays.end(), order);
 }
 
-void RayFan::sweepUpwards(std::vector<Ray>& rays, bool mirrored) {
+/// Finds the row after which each two neighbours part, and from which on each ray is alone.
+void RayFan::scheduleSplits(int direction) {
+  auto& rays = direction > 0 ? up_ : down_;
+  rays_ = &rays;
+  rise_ = direction > 0 ? riseUp_ : riseDown_;
+  lone_.clear();
+  runs_.clear();
   if (rays.empty()) return;
-  sortFromRightToLeft(rays);
+  runs_.push_back({0, static_cast<int>(rays.size()) - 1});
 
-  const int lastRow = scheduleSplits(rays);
-  runs_.assign(1, {0, static_cast<int>(rays.size()) - 1});
-  leaningRight_.clear();
-  leaningLeft_.clear();
-  for (int row = 1; row <= lastRow; ++row) {
-    spans_.clear();
-    splitRuns(row);
-    addRuns(rays, row);
-    addAlone(leaningRight_, true, row);
-    addAlone(leaningLeft_, false, row);
-    (*visit_)(mirrored ? originRow_ - row : originRow_ + row, spans_);
-  }
-}
-
-/// Finds the row after which each two neighbours part, and from which on each ray is alone. Returns the last row of all.
-int RayFan::scheduleSplits(std::vector<Ray>& rays) {
   int lastRow = 0;
-  for (const auto& ray : rays) lastRow = std::max(lastRow, ray.endRow);
+  for (auto& ray : rays) {
+    lastRow = std::max(lastRow, ray.endRow);
+    ray.aloneFrom = 1;
+  }
   expiring_.assign(static_cast<std::size_t>(lastRow) + 1, -1);
   nextExpiring_.resize(rays.size());
   for (std::size_t pair = rays.size() - 1; pair-- > 0;) {
@@ -154,8 +142,6 @@ int RayFan::scheduleSplits(std::vector<Ray>& rays) {
     nextExpiring_[pair] = first;
     first = static_cast<int>(pair);
   }
-  for (auto& ray : rays) ray.aloneFrom = std::max(ray.aloneFrom, 1);
-  return lastRow;
 }
 
 /// Splits the runs between the pairs whose last row without a gap was the row before.
@@ -174,9 +160,10 @@ void RayFan::splitRuns(int row) {
 }
 
 /// The row's cells of rays that share some. Rays that share none from here on leave the runs.
-void RayFan::addRuns(const std::vector<Ray>& rays, int row) {
-  auto& crossed = crossedByRuns_;
-  crossed.clear();
+std::span<const RayFan::Span> RayFan::sweepRow(int row) {
+  splitRuns(row);
+  const auto& rays = *rays_;
+  crossed_.clear();
   std::size_t kept = 0;
   for (const auto& run : runs_) {
     const auto& right = rays[static_cast<std::size_t>(run.first)];
@@ -187,23 +174,25 @@ void RayFan::addRuns(const std::vector<Ray>& rays, int row) {
         continue;
       }
     }
-    crossed.push_back({firstCrossed(rays[static_cast<std::size_t>(run.last)], row), lastCrossed(right, row)});
+    crossed_.push_back({firstCrossed(rays[static_cast<std::size_t>(run.last)], row), lastCrossed(right, row)});
     runs_[kept++] = run;
     // Runs come from right to left; only rays that end within the row can break the order, and not by far.
-    for (auto at = crossed.size() - 1; at > 0 && crossed[at].first > crossed[at - 1].first; --at) {
-      std::swap(crossed[at], crossed[at - 1]);
+    for (auto at = crossed_.size() - 1; at > 0 && crossed_[at].first > crossed_[at - 1].first; --at) {
+      std::swap(crossed_[at], crossed_[at - 1]);
     }
   }
   runs_.resize(kept);
 
-  for (std::size_t i = crossed.size(); i > 0;) {
-    Span span = crossed[i - 1];
-    for (--i; i > 0 && crossed[i - 1].first <= span.last + 1; --i) span.last = std::max(span.last, crossed[i - 1].last);
+  spans_.clear();
+  for (std::size_t i = crossed_.size(); i > 0;) {
+    Span span = crossed_[i - 1];
+    for (--i; i > 0 && crossed_[i - 1].first <= span.last + 1; --i) span.last = std::max(span.last, crossed_[i - 1].last);
     spans_.push_back(span);
   }
+  return spans_;
 }
 
-/// From this row on the ray's crossings are followed step by step.
+/// From this row on the ray is walked step by step.
 void RayFan::leaveAlone(const Ray& ray, int row) {
   const auto dx = static_cast<std::int64_t>(ray.dx);
   const auto dy = static_cast<std::int64_t>(ray.dy);
@@ -214,83 +203,9 @@ void RayFan::leaveAlone(const Ray& ray, int row) {
   const auto below = static_cast<std::int64_t>(rise_) + (row - 1) * std::int64_t{kUnitsPerCell};
   const std::int64_t x = floorDivision(dx * below);
   const std::int64_t step = floorDivision(dx * kUnitsPerCell);
-  (dx > 0 ? leaningRight_ : leaningLeft_)
-      .add(ray, originX_ + x, dx * below - x * dy, step, dx * kUnitsPerCell - step * dy);
-}
-
-void RayFan::addAlone(LoneRays& rays, bool leanRight, int row) {
-  // A corner belongs to neither of the cells that only touch there: from the left, the cell before it was the last.
-  const auto isCorner = [](std::int32_t x, std::int32_t rest) {
-    return static_cast<int>((x & (kUnitsPerCell - 1)) == 0) & static_cast<int>(rest == 0);
-  };
-  for (std::size_t i = 0; rays.nextEnd == row && i < rays.x.size();) {
-    if (rays.endRow[i] > row) {
-      ++i;
-      continue;
-    }
-    const int cell = cellOf(rays.x[i]);
-    spans_.push_back(leanRight ? Span{cell, rays.endCell[i]}
-                               : Span{rays.endCell[i], cell - isCorner(rays.x[i], rays.rest[i])});
-    rays.remove(i);
-  }
-  if (rays.nextEnd == row) {
-    rays.nextEnd = rays.endRow.empty() ? 0 : *std::min_element(rays.endRow.begin(), rays.endRow.end());
-  }
-
-  const auto begin = spans_.size();
-  const auto count = rays.x.size();
-  spans_.resize(begin + count);
-  // Without branches on what chance decides, and without aliases, so that the compiler takes several rays at a time.
-  Span* __restrict const spans = spans_.data() + begin;
-  std::int32_t* __restrict const xs = rays.x.data();
-  std::int32_t* __restrict const rests = rays.rest.data();
-  const std::int32_t* __restrict const steps = rays.step.data();
-  const std::int32_t* __restrict const restSteps = rays.restStep.data();
-  const std::int32_t* __restrict const dys = rays.dy.data();
-  const auto follow = [=](auto toSpan) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::int32_t x = xs[i];
-      const std::int32_t rest = rests[i];
-      const std::int32_t sum = rest + restSteps[i];
-      const std::int32_t carry = -static_cast<std::int32_t>(sum >= dys[i]);  // all bits or none
-      xs[i] = x + steps[i] - carry;
-      rests[i] = sum - (dys[i] & carry);
-      spans[i] = toSpan(x, rest, xs[i], rests[i]);
-    }
-  };
-  if (leanRight) {
-    follow([&](auto x, auto, auto nextX, auto nextRest) {
-      return Span{cellOf(x), cellOf(nextX) - isCorner(nextX, nextRest)};
-    });
-  } else {
-    follow([&](auto x, auto rest, auto nextX, auto) { return Span{cellOf(nextX), cellOf(x) - isCorner(x, rest)}; });
-  }
-}
-
-void RayFan::LoneRays::clear() {
-  for (auto* values : {&x, &rest, &step, &restStep, &dy}) values->clear();
-  endRow.clear();
-  endCell.clear();
-  nextEnd = 0;
-}
-
-void RayFan::LoneRays::add(const Ray& ray, std::int64_t atX, std::int64_t atRest, std::int64_t stepX,
-                           std::int64_t stepRest) {
-  x.push_back(static_cast<std::int32_t>(atX));
-  rest.push_back(static_cast<std::int32_t>(atRest));
-  step.push_back(static_cast<std::int32_t>(stepX));
-  restStep.push_back(static_cast<std::int32_t>(stepRest));
-  dy.push_back(static_cast<std::int32_t>(ray.dy));
-  endRow.push_back(ray.endRow);
-  endCell.push_back(ray.endCell);
-  nextEnd = nextEnd == 0 ? ray.endRow : std::min(nextEnd, ray.endRow);
-}
-
-void RayFan::LoneRays::remove(std::size_t i) {
-  for (auto* values : {&x, &rest, &step, &restStep, &dy, &endRow, &endCell}) {
-    (*values)[i] = values->back();
-    values->pop_back();
-  }
+  const auto narrow = [](std::int64_t number) { return static_cast<std::int32_t>(number); };
+  lone_.push_back({narrow(originX_ + x), narrow(dx * below - x * dy), narrow(step), narrow(dx * kUnitsPerCell - step * dy),
+                   narrow(dy), row, ray.endRow, ray.endCell, dx > 0});
 }
 
 }  // namespace prodomos::geometry

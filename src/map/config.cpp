@@ -9,6 +9,8 @@ void describe(base::ConfigVisitor& visitor, LayersConfig& config) {
   visitor.section("grid", "occupancy grid of each sub-map");
   visitor.key("resolution", grid.resolution, "m", {0.005, 1.0}, "edge length of a cell");
   visitor.key("max_range", grid.maxRange, "m", {0.5, 500.0}, "beams are used up to here");
+  visitor.key("no_return", grid.noReturn, "m", {0.0, 500.0},
+              "a beam without a return passes so far; beyond, dark and shiny things swallow too many to trust it");
   visitor.key("hit", grid.hit, "", {0.51, 0.95}, "probability of being occupied that an end point stands for");
   visitor.key("miss", grid.miss, "", {0.10, 0.49}, "probability of being occupied that a passing beam stands for");
   visitor.key("clamp_low", grid.clampLow, "", {0.05, 0.49}, "least probability a cell can take");

@@ -12,11 +12,11 @@ namespace prodomos::map {
 
 using Beam = OccupancyGrid::Beam;
 
-void appendLevelBeams(const sensors::LaserScan& scan, const geometry::Pose3& T_grid_sensor, double maxRange,
+void appendLevelBeams(const sensors::LaserScan& scan, const geometry::Pose3& T_grid_sensor, double noReturn,
                       std::vector<Beam>& beams) {
   const Eigen::Vector2d origin = T_grid_sensor.translation().head<2>();
   const Eigen::Matrix2d rotation = T_grid_sensor.linear().topLeftCorner<2, 2>();
-  const double noReturn = std::min(scan.maxRange, maxRange);
+  noReturn = std::min(scan.maxRange, noReturn);
   // The direction turns by one step a beam: one multiplication of complex numbers instead of a sine and a cosine.
   Eigen::Vector2d direction(std::cos(scan.firstAngle), std::sin(scan.firstAngle));
   const Eigen::Vector2d step(std::cos(scan.angleStep), std::sin(scan.angleStep));

@@ -8,8 +8,8 @@
 
 namespace prodomos::map {
 
-/// A scan's beams as seen from above; those that say nothing are left out.
-void appendLevelBeams(const sensors::LaserScan& scan, const geometry::Pose3& T_grid_sensor, double maxRange,
+/// A scan's beams as seen from above; those that say nothing are left out, those without a return have this length.
+void appendLevelBeams(const sensors::LaserScan& scan, const geometry::Pose3& T_grid_sensor, double noReturn,
                       std::vector<OccupancyGrid::Beam>& beams);
 
 /// One beam per direction in which a depth image saw something: to the nearest point within the height band over the

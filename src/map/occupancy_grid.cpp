@@ -145,9 +145,9 @@ void OccupancyGrid::insert(const Eigen::Vector2d& origin, std::span<const Beam> 
 
   // A cell with an end point counts as hit alone: its value is kept aside while the beams pass.
   for (auto& hit : hits_) hit.before = row(hit.cell.y)[hit.cell.x - box_.first.x];
-  fan_.trace(start, ends_, [this, miss = Misser(miss_, low_)](int y, std::span<const geometry::RayFan::Span> spans) {
-    auto* cells = row(y) - box_.first.x;
-    for (const auto& span : spans) miss(cells + span.first, span.last - span.first + 1);
+  fan_.trace(start, ends_, [cells = row(0) - box_.first.x, width = box_.width(), miss = Misser(miss_, low_)](
+                               int y, int first, int last) {
+    miss(cells + static_cast<std::ptrdiff_t>(y) * width + first, last - first + 1);
   });
   for (const auto& hit : hits_) {
     const Cell before = hit.before == kUnknownCell ? Cell{0} : hit.before;
@@ -157,7 +157,7 @@ void OccupancyGrid::insert(const Eigen::Vector2d& origin, std::span<const Beam> 
 
 void OccupancyGrid::insert(const sensors::LaserScan& scan, const geometry::Pose3& T_grid_sensor) {
   beams_.clear();
-  appendLevelBeams(scan, T_grid_sensor, config_.maxRange, beams_);
+  appendLevelBeams(scan, T_grid_sensor, config_.noReturn, beams_);
   insert(T_grid_sensor.translation().head<2>(), beams_);
 }
 
@@ -186,7 +186,7 @@ std::optional<Eigen::Vector2d> OccupancyGrid::levelBeams(const PlacedReading& pl
   geometry::Pose3 T_grid_sensor = placed.T_submap_body;
   if (const auto* scan = std::get_if<sensors::LaserScan>(&placed.reading.data)) {
     T_grid_sensor = T_grid_sensor * scan->T_body_sensor;
-    appendLevelBeams(*scan, T_grid_sensor, config_.maxRange, beams_);
+    appendLevelBeams(*scan, T_grid_sensor, config_.noReturn, beams_);
   } else if (const auto* frame = std::get_if<sensors::RgbdFrame>(&placed.reading.data);
              frame && !frame->depth.empty()) {
     T_grid_sensor = T_grid_sensor * frame->T_body_camera;
@@ -235,7 +235,7 @@ void OccupancyGrid::merge(const MapLayer& other, const geometry::Pose3& T_this_o
 
 void OccupancyGrid::save(base::ByteWriter& out) const {
   const auto known = knownBox();
-  out << config_.resolution << config_.maxRange << config_.hit << config_.miss << config_.clampLow << config_.clampHigh
+  out << config_.resolution << config_.maxRange << config_.noReturn << config_.hit << config_.miss << config_.clampLow << config_.clampHigh
       << config_.heightBand.least << config_.heightBand.most << known.first.x << known.first.y << known.last.x
       << known.last.y;
   for (int y = known.first.y; y <= known.last.y; ++y) {
@@ -247,7 +247,7 @@ void OccupancyGrid::load(base::ByteReader& in, int version) {
   if (version != 1) throw base::Error("expected version 1 of an occupancy grid, found " + std::to_string(version));
   OccupancyGridConfig config;
   geometry::CellBox box;
-  in >> config.resolution >> config.maxRange >> config.hit >> config.miss >> config.clampLow >> config.clampHigh >>
+  in >> config.resolution >> config.maxRange >> config.noReturn >> config.hit >> config.miss >> config.clampLow >> config.clampHigh >>
       config.heightBand.least >> config.heightBand.most >> box.first.x >> box.first.y >> box.last.x >> box.last.y;
   const auto cells = box.empty() ? 0 : static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height());
   if (cells != in.left() / sizeof(Cell)) {

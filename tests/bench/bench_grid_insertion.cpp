@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the prodomos authors
 // SPDX-License-Identifier: BSD-3-Clause
 // Inserts the scans of a log into prodomos' grid and into MRPT's COccupancyGridMap2D, in turn, and prints the ratio of
-// their times and how far the two agree.
+// their times and how far the two agree. Both use the beams that returned, up to the same range.
 //
 //   bench_grid_insertion LOG [RESOLUTION [ROUNDS]]
 #include <mrpt/maps/COccupancyGridMap2D.h>
@@ -77,6 +77,7 @@ OccupancyGrid insertIntoOurs(const std::vector<PlacedScan>& scans, double resolu
   prodomos::map::OccupancyGridConfig config;
   config.resolution = resolution;
   config.maxRange = maxRange;
+  config.noReturn = 0.0;
   OccupancyGrid grid(config);
   for (const auto& [scan, T_grid_body, observation] : scans) {
     grid.insert(scan, prodomos::geometry::toPose3(T_grid_body) * scan.T_body_sensor);
@@ -88,7 +89,7 @@ mrpt::maps::COccupancyGridMap2D insertIntoMrpt(const std::vector<PlacedScan>& sc
   mrpt::maps::COccupancyGridMap2D grid(-10, 10, -10, 10, static_cast<float>(resolution));
   grid.insertionOptions.maxDistanceInsertion = static_cast<float>(maxRange);
   grid.insertionOptions.maxOccupancyUpdateCertainty = 0.7F;
-  grid.insertionOptions.considerInvalidRangesAsFreeSpace = true;
+  grid.insertionOptions.considerInvalidRangesAsFreeSpace = false;
   for (const auto& [scan, T_grid_body, observation] : scans) {
     grid.insertObservation(observation, mrpt::poses::CPose3D(T_grid_body.x, T_grid_body.y, 0, T_grid_body.theta, 0, 0));
   }

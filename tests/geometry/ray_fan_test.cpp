@@ -69,11 +69,9 @@ Cells bruteForce(const Eigen::Vector2d& origin, std::span<const Eigen::Vector2d>
 Cells traced(const Eigen::Vector2d& origin, std::span<const Eigen::Vector2d> ends) {
   RayFan fan;
   Cells cells;
-  fan.trace(origin, ends, [&](int y, std::span<const RayFan::Span> spans) {
-    for (const auto& span : spans) {
-      for (int x = span.first; x <= span.last; ++x) {
-        EXPECT_TRUE(cells.insert({x, y}).second) << "cell " << x << ", " << y << " comes twice";
-      }
+  fan.trace(origin, ends, [&](int y, int first, int last) {
+    for (int x = first; x <= last; ++x) {
+      EXPECT_TRUE(cells.insert({x, y}).second) << "cell " << x << ", " << y << " comes twice";
     }
   });
   return cells;

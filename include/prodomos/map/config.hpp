@@ -15,6 +15,7 @@ struct HeightBand {
 struct OccupancyGridConfig {
   double resolution = 0.05;  ///< metres
   double maxRange = 30.0;    ///< metres; beams are used up to here
+  double noReturn = 5.0;     ///< metres; a beam without a return passes so far and says nothing beyond
   double hit = 0.7;          ///< P(occupied | an end point lies in the cell)
   double miss = 0.4;         ///< P(occupied | a beam passes the cell)
   double clampLow = 0.12;    ///< least probability
