@@ -10,10 +10,10 @@
 #include <array>
 #include <charconv>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
-#include <sstream>
 
 namespace prodomos::base {
 
@@ -122,11 +122,10 @@ class ConfigReader final : public ConfigVisitor {
 
   void readFile(const std::filesystem::path& file) {
     std::ifstream stream(file);
-    std::stringstream text;
-    if (!stream || std::filesystem::is_directory(file) || !(text << stream.rdbuf())) {
+    if (!stream || std::filesystem::is_directory(file)) {
       throw UsageError(expectedFound(file.string(), "a YAML configuration file", "none that can be read"));
     }
-    readYaml(file.string(), text.str());
+    readYaml(file.string(), {std::istreambuf_iterator<char>(stream), {}});
   }
 
   void readYaml(const std::string& file, const std::string& text) {
