@@ -43,6 +43,10 @@ std::optional<base::Duration> PoseTrack::distanceTo(base::Time time) const {
   return std::min(after->time - time, time - std::prev(after)->time);
 }
 
+void PoseTrack::forgetAllBut(std::size_t count) {
+  while (poses_.size() > count) poses_.pop_front();
+}
+
 void PoseTrack::forgetBefore(base::Time time) {
   while (poses_.size() > 2 && poses_[1].time < time - kMargin) poses_.pop_front();
 }

@@ -26,6 +26,8 @@ class PoseTrack {
   std::optional<base::Duration> distanceTo(base::Time time) const;
   /// Drops what is not needed for moments from `time` on. A margin is kept for readings that come late.
   void forgetBefore(base::Time time);
+  /// Keeps the latest ones.
+  void forgetAllBut(std::size_t count);
 
   void save(base::ByteWriter& out) const;
   void load(base::ByteReader& in);

@@ -31,13 +31,15 @@ struct ResumePoint {
 class Mapper {
  public:
   /// Begins a session in the store, or goes on with the one that is still running there (see resumePoint()). The store
-  /// must outlive the mapper. Throws base::FileError where the trajectory file of the configuration cannot be read.
+  /// must outlive the mapper. Throws base::FileError where the trajectory file of the configuration cannot be read, or
+  /// the running session is another version's; base::UsageError where it has another configuration.
   Mapper(map::MapStore& store, const MapperConfig& config, const sensors::SourceInfo& log);
   ~Mapper();
   Mapper(const Mapper&) = delete;
   Mapper& operator=(const Mapper&) = delete;
 
-  /// Readings come in the order of their log. Throws base::FileError where the map file cannot be written.
+  /// Readings come in the order of their log. Throws base::FileError where the map file cannot be written. After that,
+  /// and after finish(), nothing more is taken: base::Error.
   void process(sensors::Reading reading);
   /// An item that is no reading: counted.
   void skip(const sensors::Skipped& skipped);
@@ -45,10 +47,12 @@ class Mapper {
   void finish(const sensors::EndOfLog& end = {});
 
   ResumePoint resumePoint() const;
-  /// Hands in the waiting items of the resume point again, before anything else.
+  /// Hands in the waiting items of the resume point again, before anything else. What is not handed in is lost, and
+  /// counted when the session finishes.
   void restore(std::vector<std::pair<std::int64_t, sensors::Reading>> waiting);
 
-  /// What the map is now, the running sub-map included; for `query` and exporters.
+  /// What the map is now, the running sub-map included; for `query` and exporters in the mapper's own thread. Others
+  /// open the file with map::MapView::open().
   map::MapView view() const;
   const Report& report() const;
   /// Wall seconds by stage; what feeds the mapper may add its own.

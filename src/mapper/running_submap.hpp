@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "prodomos/base/stopwatch.hpp"
+#include "prodomos/map/map_store.hpp"
+#include "prodomos/mapper/config.hpp"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace prodomos::mapper {
+
+/// The sub-map that the robot is in: what its readings have given so far, and how the robot has moved within.
+class RunningSubMap {
+ public:
+  /// `edge` leads to it from the one before.
+  RunningSubMap(const map::Node& node, const std::optional<map::Edge>& edge, const map::LayersConfig& config);
+
+  const map::Node& node() const { return submap_.node; }
+  const std::optional<map::Edge>& edge() const { return edge_; }
+  double turned() const { return turned_; }  ///< radians, all turns counting
+  geometry::Pose3 T_submap_body(const geometry::Pose3& T_travel_body) const {
+    return submap_.node.T_travel_submap.inverse() * T_travel_body;
+  }
+
+  void move(const geometry::Pose3& T_before_after);
+  /// Is this reading's place a sub-map of its own (002 §II-A)?
+  bool isLeftBy(const map::PlacedReading& placed, const SubMapConfig& config);
+  /// False where no layer takes anything from the reading.
+  bool integrate(const map::PlacedReading& placed, const geometry::Pose3& T_travel_body, base::StageTimes& times);
+
+  /// What is committed of it once it is finished. The change refers to its layers.
+  void addTo(map::MapChange& change) const;
+  /// As it is now, for a view.
+  std::shared_ptr<const map::SubMap> clone() const;
+
+  /// Saved as it began: before its first reading.
+  void save(base::ByteWriter& out) const;
+  static RunningSubMap load(base::ByteReader& in, base::SessionId session, const map::LayersConfig& config);
+
+ private:
+  map::SubMap submap_;
+  std::optional<map::Edge> edge_;
+  std::vector<map::TrajectoryPoint> trajectory_;
+  double turned_ = 0.0;
+  double wayAtLastLook_ = 0.0;
+  double turnAtLastLook_ = 0.0;
+};
+
+}  // namespace prodomos::mapper
