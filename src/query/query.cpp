@@ -3,21 +3,40 @@
 #include "prodomos/query/query.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <limits>
+#include <utility>
 
 namespace prodomos::query {
 
 namespace {
 
 constexpr double kStandingDistance = 0.8;  // metres in front of the door
+constexpr double kFarthest = 1e4;          // metres; no sensor reaches farther from where its sub-map began
 
 /// Where to stand to go through the entity that causes the prediction.
 geometry::Pose2 viewpointOf(const map::MapView& view, const map::Entity& cause) {
   const auto& submap = view.graph().getNode(cause.submap);
   const geometry::Pose2 entity = geometry::toPose2(submap.T_map_submap * cause.T_submap_entity);
   return entity * geometry::Pose2{-kStandingDistance, 0.0, 0.0};
+}
+
+Eigen::Vector2d inSubMap(const map::Node& node, const Position& position) {
+  const auto at = inverse(geometry::toPose2(node.T_map_submap)) * geometry::Pose2{position.x, position.y, 0.0};
+  return {at.x, at.y};
+}
+
+/// The observed ones of its floor that may know the spot, with their distance.
+std::vector<std::pair<double, base::SubMapId>> nearestSubMaps(const map::MapView& view, const Position& position) {
+  std::vector<std::pair<double, base::SubMapId>> found;
+  for (const auto id : view.graph().nodes()) {
+    const auto& node = view.graph().getNode(id);
+    if (node.kind == map::SubMapKind::kPredicted) continue;
+    if (position.floor && node.floor && node.floor != position.floor) continue;
+    const double distance = inSubMap(node, position).norm();
+    if (distance < kFarthest) found.emplace_back(distance, id);  // never true of what is not a number
+  }
+  std::ranges::sort(found);
+  return found;
 }
 
 }  // namespace
@@ -42,25 +61,16 @@ std::vector<PredictedRoom> predictedRooms(const map::MapView& view, double least
 }
 
 PlaceAnswer placeAt(const map::MapView& view, const Position& position) {
-  PlaceAnswer answer;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const auto id : view.graph().nodes()) {
-    const auto& node = view.graph().getNode(id);
-    if (node.kind == map::SubMapKind::kPredicted) continue;
-    if (position.floor && node.floor && node.floor != position.floor) continue;
-    const geometry::Pose2 at =
-        inverse(geometry::toPose2(node.T_map_submap)) * geometry::Pose2{position.x, position.y, 0};
-    const double distance = std::hypot(at.x, at.y);
-    if (distance >= nearest) continue;
+  // Several sub-maps may know the spot: the one that began nearest has seen it best.
+  for (const auto& [distance, id] : nearestSubMaps(view, position)) {
     const auto grid = view.findLayer<map::OccupancyGrid>(id);
     if (grid == nullptr) continue;
-    const auto cell = grid->cellAt({at.x, at.y});
+    const auto& node = view.graph().getNode(id);
+    const auto cell = grid->cellAt(inSubMap(node, position));
     if (grid->state(cell) == map::CellState::kUnknown) continue;
-    // Several sub-maps may know the spot: the one that began nearest has seen it best.
-    nearest = distance;
-    answer = {node.place, id, node.floor, grid->state(cell), grid->probability(cell)};
+    return {node.place, id, node.floor, grid->state(cell), grid->probability(cell)};
   }
-  return answer;
+  return {};
 }
 
 std::optional<map::Route> routeBetween(const map::MapView& view, const Position& from, const Position& to) {
