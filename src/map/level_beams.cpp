@@ -92,7 +92,7 @@ void appendLevelBeams(const sensors::PointCloud& cloud, const geometry::Pose3& T
                       const sensors::Mask* movers, std::vector<Beam>& beams) {
   DirectionBins bins(T_grid_sensor.translation(), band);
   for (std::size_t i = 0; i < cloud.points_in_sensor.size(); ++i) {
-    if (movers != nullptr && movers->pixels()[i] != 0) continue;
+    if (isMover(movers, i)) continue;
     const Eigen::Vector3d point_in_grid = T_grid_sensor * cloud.points_in_sensor[i].cast<double>();
     if (point_in_grid.allFinite()) bins.add(point_in_grid);
   }

@@ -46,7 +46,7 @@ bool PointLayer::integrate(const PlacedReading& placed) {
   if (const auto* cloud = std::get_if<sensors::PointCloud>(&placed.reading.data)) {
     for (std::size_t i = 0; i < cloud->points_in_sensor.size(); ++i) {
       const auto& point = cloud->points_in_sensor[i];
-      if (!point.allFinite() || (placed.movers != nullptr && placed.movers->pixels()[i] != 0)) continue;
+      if (!point.allFinite() || isMover(placed.movers, i)) continue;
       take(cloud->T_body_sensor, point.cast<double>(), cloud->color.empty() ? kNoColor : cloud->color[i]);
     }
     return true;
@@ -54,7 +54,7 @@ bool PointLayer::integrate(const PlacedReading& placed) {
   if (const auto* scan = std::get_if<sensors::LaserScan>(&placed.reading.data)) {
     for (std::size_t i = 0; i < scan->ranges.size(); ++i) {
       const double range = static_cast<double>(scan->ranges[i]);
-      if (!(range >= 0.0 && range <= maxRange_)) continue;
+      if (!(range >= 0.0 && range <= maxRange_) || isMover(placed.movers, i)) continue;
       const double angle = scan->firstAngle + static_cast<double>(i) * scan->angleStep;
       take(scan->T_body_sensor, {range * std::cos(angle), range * std::sin(angle), 0.0}, kNoColor);
     }
