@@ -4,6 +4,7 @@
 #include "prodomos/exporter/exporter.hpp"
 
 #include "commands.hpp"
+#include "overwriting.hpp"
 
 #include <filesystem>
 #include <iostream>
@@ -28,10 +29,7 @@ void exportMap(const ExportOptions& options) {
   const auto view = map::MapView::open(options.map);
   std::filesystem::path output = options.output;
   if (output.empty()) output = std::filesystem::path(options.map).replace_extension(exporter->extension);
-  std::error_code unknown;
-  if (std::filesystem::equivalent(output, options.map, unknown)) {
-    throw base::UsageError(base::expectedFound("-o", "another file than the map itself", output.string()));
-  }
+  requireOtherFile("-o", output, options.map, "the map itself");
   exporter->write(view, output);
   std::cout << output.string() << '\n';
 }

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <charconv>
+#include <cmath>
 #include <iostream>
 
 namespace prodomos::apps {
@@ -33,7 +34,7 @@ query::Position parsePosition(const std::string& text) {
   for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
   const auto parse = [](const std::string& part, auto& number) {
     const auto [end, fault] = std::from_chars(part.data(), part.data() + part.size(), number);
-    return fault == std::errc{} && end == part.data() + part.size();
+    return fault == std::errc{} && end == part.data() + part.size() && std::isfinite(static_cast<double>(number));
   };
   query::Position position;
   int floor = 0;

@@ -6,6 +6,7 @@
 #include "prodomos/io/open_source.hpp"
 
 #include "commands.hpp"
+#include "overwriting.hpp"
 #include "progress_bar.hpp"
 #include "text.hpp"
 
@@ -169,6 +170,10 @@ void replayLog(ReplayOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
 
   // All that can be wrong is found before anything is written.
+  if (!options.report.empty()) {
+    requireOtherFile("--report", options.report, options.log, "the log");
+    requireOtherFile("--report", options.report, options.output, "the map");
+  }
   auto config = base::readConfig<mapper::MapperConfig>(options.config);
   const bool resumes = options.resume && fs::exists(options.output);
   if (resumes) {

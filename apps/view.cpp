@@ -4,6 +4,7 @@
 #include "prodomos/exporter/view3d.hpp"
 
 #include "commands.hpp"
+#include "overwriting.hpp"
 
 #include <charconv>
 #include <iostream>
@@ -46,6 +47,7 @@ void view(const ViewOptions& options) {
     exporter::showWindow(options.map, options.follow);
     return;
   }
+  requireOtherFile("--screenshot", options.screenshot, options.map, "the map itself");
   const auto [width, height] = parseSize(options.size);
   exporter::renderScreenshot(map::MapView::open(options.map), options.screenshot, width, height);
   std::cout << options.screenshot << '\n';
