@@ -11,7 +11,9 @@ namespace {
 constexpr std::int64_t kPerSecond = 1'000'000'000;
 }
 
-Duration fromSeconds(double seconds) { return Duration{std::llround(seconds * static_cast<double>(kPerSecond))}; }
+Duration fromSeconds(double seconds) {
+  return Duration{std::llround(seconds * static_cast<double>(kPerSecond))};
+}
 
 std::optional<Time> parseSeconds(std::string_view text) {
   const bool negative = !text.empty() && text.front() == '-';

@@ -32,16 +32,21 @@ Pose3 toPose3(const Pose2& pose, double z) {
   return lifted;
 }
 
-Pose2 toPose2(const Pose3& pose) { return {pose.translation().x(), pose.translation().y(), yaw(pose)}; }
+Pose2 toPose2(const Pose3& pose) {
+  return {pose.translation().x(), pose.translation().y(), yaw(pose)};
+}
 
-double yaw(const Pose3& pose) { return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0)); }
+double yaw(const Pose3& pose) {
+  return std::atan2(pose.linear()(1, 0), pose.linear()(0, 0));
+}
 
 Pose3 fromYawPitchRoll(const Eigen::Vector3d& translation, double yaw, double pitch, double roll) {
   Pose3 pose = Pose3::Identity();
   pose.translation() = translation;
-  pose.linear() = (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
-                   Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
-                      .toRotationMatrix();
+  pose.linear() =
+      (Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+       Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
   return pose;
 }
 
@@ -60,10 +65,16 @@ Pose3 interpolate(const Pose3& a, const Pose3& b, double t) {
   return pose;
 }
 
-Pose3 levelled(const Pose3& pose) { return toPose3(toPose2(pose), pose.translation().z()); }
+Pose3 levelled(const Pose3& pose) {
+  return toPose3(toPose2(pose), pose.translation().z());
+}
 
-double rotationAngle(const Pose3& pose) { return Eigen::AngleAxisd(pose.linear()).angle(); }
+double rotationAngle(const Pose3& pose) {
+  return Eigen::AngleAxisd(pose.linear()).angle();
+}
 
-bool isFinite(const Pose3& pose) { return pose.matrix().allFinite(); }
+bool isFinite(const Pose3& pose) {
+  return pose.matrix().allFinite();
+}
 
 }  // namespace prodomos::geometry

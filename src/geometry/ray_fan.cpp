@@ -33,6 +33,21 @@ int lastCellBefore(double units) {
 
 }  // namespace
 
+/// Where the ray crosses the upper border of a row, 1/256 cells. Divided last, so that a corner comes out exactly.
+inline double RayFan::crossing(const Ray& ray, int row) const {
+  return originX_ + ray.dx * (rise_ + static_cast<double>(row) * kUnitsPerCell) / ray.dy;
+}
+
+inline int RayFan::firstCrossed(const Ray& ray, int row) const {
+  if (ray.dx <= 0 && row == ray.endRow) return ray.endCell;
+  return floorCell(ray.dx > 0 ? crossing(ray, row - 1) : crossing(ray, row));
+}
+
+inline int RayFan::lastCrossed(const Ray& ray, int row) const {
+  if (ray.dx > 0 && row == ray.endRow) return ray.endCell;
+  return lastCellBefore(ray.dx > 0 ? crossing(ray, row) : crossing(ray, row - 1));
+}
+
 /// Sorts the rays by direction; returns the cells of the origin's own row.
 RayFan::Span RayFan::begin(const Eigen::Vector2d& origin, std::span<const Eigen::Vector2d> ends) {
   originX_ = toUnits(origin.x());
@@ -71,21 +86,6 @@ RayFan::Span RayFan::begin(const Eigen::Vector2d& origin, std::span<const Eigen:
   sortFromRightToLeft(up_);
   sortFromRightToLeft(down_);
   return own;
-}
-
-/// Where the ray crosses the upper border of a row, 1/256 cells. Divided last, so that a corner comes out exactly.
-double RayFan::crossing(const Ray& ray, int row) const {
-  return originX_ + ray.dx * (rise_ + static_cast<double>(row) * kUnitsPerCell) / ray.dy;
-}
-
-int RayFan::firstCrossed(const Ray& ray, int row) const {
-  if (ray.dx <= 0 && row == ray.endRow) return ray.endCell;
-  return floorCell(ray.dx > 0 ? crossing(ray, row - 1) : crossing(ray, row));
-}
-
-int RayFan::lastCrossed(const Ray& ray, int row) const {
-  if (ray.dx > 0 && row == ray.endRow) return ray.endCell;
-  return lastCellBefore(ray.dx > 0 ? crossing(ray, row) : crossing(ray, row - 1));
 }
 
 /// Up to this row no cell fits between two neighbouring rays that both pass the whole row; beyond it, they share none.
@@ -186,7 +186,8 @@ std::span<const RayFan::Span> RayFan::sweepRow(int row) {
   spans_.clear();
   for (std::size_t i = crossed_.size(); i > 0;) {
     Span span = crossed_[i - 1];
-    for (--i; i > 0 && crossed_[i - 1].first <= span.last + 1; --i) span.last = std::max(span.last, crossed_[i - 1].last);
+    for (--i; i > 0 && crossed_[i - 1].first <= span.last + 1; --i)
+      span.last = std::max(span.last, crossed_[i - 1].last);
     spans_.push_back(span);
   }
   return spans_;
@@ -204,8 +205,8 @@ void RayFan::leaveAlone(const Ray& ray, int row) {
   const std::int64_t x = floorDivision(dx * below);
   const std::int64_t step = floorDivision(dx * kUnitsPerCell);
   const auto narrow = [](std::int64_t number) { return static_cast<std::int32_t>(number); };
-  lone_.push_back({narrow(originX_ + x), narrow(dx * below - x * dy), narrow(step), narrow(dx * kUnitsPerCell - step * dy),
-                   narrow(dy), row, ray.endRow, ray.endCell, dx > 0});
+  lone_.push_back({narrow(originX_ + x), narrow(dx * below - x * dy), narrow(step),
+                   narrow(dx * kUnitsPerCell - step * dy), narrow(dy), row, ray.endRow, ray.endCell, dx > 0});
 }
 
 }  // namespace prodomos::geometry

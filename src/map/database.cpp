@@ -141,6 +141,10 @@ void Database::execute(const std::string& sql) const {
   }
 }
 
+void Database::tryToExecute(const std::string& sql) const {
+  sqlite3_exec(connection_, sql.c_str(), nullptr, nullptr, nullptr);
+}
+
 std::int64_t Database::number(std::string_view sql) const {
   auto statement = prepare(sql);
   return statement.step() ? statement.get<std::int64_t>(0) : 0;

@@ -76,6 +76,7 @@ class Database {
   const std::string& path() const { return path_; }
   Statement prepare(std::string_view sql) const { return {connection_, path_, sql}; }
   void execute(const std::string& sql) const;
+  void tryToExecute(const std::string& sql) const;  ///< what may fail without harm
   std::int64_t number(std::string_view sql) const;  ///< the first column of the first row
 
   /// Commits with commit(), else rolls back.

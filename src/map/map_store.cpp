@@ -189,6 +189,7 @@ MapStore MapStore::openForWriting(const std::filesystem::path& path) {
   // A process that was killed before its first commit leaves an empty file behind.
   if (database->number("SELECT count(*) FROM sqlite_master") == 0) createSchema(*database);
   checkSchema(*database);
+  database->execute("PRAGMA journal_mode = WAL");
   database->execute("PRAGMA synchronous = NORMAL");
   return MapStore(std::move(database));
 }
@@ -255,6 +256,9 @@ MapView MapStore::view(std::shared_ptr<const SubMap> running, const std::optiona
 
 void MapStore::close() {
   database_->execute("PRAGMA wal_checkpoint(TRUNCATE)");
+  // A finished map is one file, which also opens where nothing can be written beside it. Readers may keep it in WAL
+  // mode.
+  database_->tryToExecute("PRAGMA journal_mode = DELETE");
   database_.reset();
 }
 

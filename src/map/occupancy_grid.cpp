@@ -23,19 +23,24 @@ OccupancyGrid::Cell logOdds(double probability) {
   return static_cast<OccupancyGrid::Cell>(units != 0 ? units : nats < 0.0 ? -1 : 1);
 }
 
-/// Lowers cells that beams pass. The constants are held apart from the grid: its cells, being characters, may alias anything.
+/// Lowers cells that beams pass.
 class Misser {
  public:
   using Cell = OccupancyGrid::Cell;
 
-  Misser(Cell miss, Cell low) : miss_(miss), low_(low) {}
+  Misser(Cell miss, Cell low) : miss_(miss), low_(low) {
+    for (int cell = std::numeric_limits<Cell>::min(); cell <= std::numeric_limits<Cell>::max(); ++cell) {
+      const int before = cell == OccupancyGrid::kUnknownCell ? 0 : cell;
+      missed_[static_cast<std::uint8_t>(cell)] = static_cast<Cell>(std::max<int>(before + miss, low));
+    }
+  }
 
   void operator()(Cell* cells, int count) const {
     if (count <= 2) {
       // One or two, as chance has it; so without a branch on it.
       Cell& last = cells[count - 1];
-      const Cell first = missed(cells[0]);
-      last = missed(last);
+      const Cell first = missed_[static_cast<std::uint8_t>(cells[0])];
+      last = missed_[static_cast<std::uint8_t>(last)];
       cells[0] = first;
       return;
     }
@@ -44,11 +49,6 @@ class Misser {
   }
 
  private:
-  Cell missed(Cell cell) const {
-    const int before = cell == OccupancyGrid::kUnknownCell ? 0 : cell;
-    return static_cast<Cell>(std::max<int>(before + miss_, low_));
-  }
-
   /// Sixteen cells at a time, of which those from `count` on are put back as they were. No overflow: the clamp leaves
   /// room below for the greatest miss.
   void missLanes(Cell* cells, int count) const {
@@ -62,6 +62,7 @@ class Misser {
     std::memcpy(cells, &after, sizeof after);
   }
 
+  std::array<Cell, 256> missed_{};
   Cell miss_;
   Cell low_;
 };
@@ -129,10 +130,10 @@ void OccupancyGrid::insert(const Eigen::Vector2d& origin, std::span<const Beam> 
   hits_.clear();
   for (const auto& beam : beams) {
     Eigen::Vector2d end = beam.end * cellsPerMetre;
-    const double length = (beam.end - origin).norm();
+    const double lengthSquared = (beam.end - origin).squaredNorm();
     bool hit = beam.hit;
-    if (length > config_.maxRange) {
-      end = start + (end - start) * (config_.maxRange / length);
+    if (lengthSquared > config_.maxRange * config_.maxRange) {
+      end = start + (end - start) * (config_.maxRange / std::sqrt(lengthSquared));
       hit = false;
     }
     ends_.push_back(end);
@@ -145,10 +146,11 @@ void OccupancyGrid::insert(const Eigen::Vector2d& origin, std::span<const Beam> 
 
   // A cell with an end point counts as hit alone: its value is kept aside while the beams pass.
   for (auto& hit : hits_) hit.before = row(hit.cell.y)[hit.cell.x - box_.first.x];
-  fan_.trace(start, ends_, [cells = row(0) - box_.first.x, width = box_.width(), miss = Misser(miss_, low_)](
-                               int y, int first, int last) {
-    miss(cells + static_cast<std::ptrdiff_t>(y) * width + first, last - first + 1);
-  });
+  const Misser miss(miss_, low_);
+  fan_.trace(
+      start, ends_, [cells = cells_.data(), box = box_, width = box_.width(), &miss](int y, int first, int last) {
+        miss(cells + static_cast<std::ptrdiff_t>(y - box.first.y) * width + (first - box.first.x), last - first + 1);
+      });
   for (const auto& hit : hits_) {
     const Cell before = hit.before == kUnknownCell ? Cell{0} : hit.before;
     row(hit.cell.y)[hit.cell.x - box_.first.x] = static_cast<Cell>(std::min(before + hit_, static_cast<int>(high_)));
@@ -235,9 +237,9 @@ void OccupancyGrid::merge(const MapLayer& other, const geometry::Pose3& T_this_o
 
 void OccupancyGrid::save(base::ByteWriter& out) const {
   const auto known = knownBox();
-  out << config_.resolution << config_.maxRange << config_.noReturn << config_.hit << config_.miss << config_.clampLow << config_.clampHigh
-      << config_.heightBand.least << config_.heightBand.most << known.first.x << known.first.y << known.last.x
-      << known.last.y;
+  out << config_.resolution << config_.maxRange << config_.noReturn << config_.hit << config_.miss << config_.clampLow
+      << config_.clampHigh << config_.heightBand.least << config_.heightBand.most << known.first.x << known.first.y
+      << known.last.x << known.last.y;
   for (int y = known.first.y; y <= known.last.y; ++y) {
     out.append(row(y) + (known.first.x - box_.first.x), static_cast<std::size_t>(known.width()) * sizeof(Cell));
   }
@@ -247,8 +249,9 @@ void OccupancyGrid::load(base::ByteReader& in, int version) {
   if (version != 1) throw base::Error("expected version 1 of an occupancy grid, found " + std::to_string(version));
   OccupancyGridConfig config;
   geometry::CellBox box;
-  in >> config.resolution >> config.maxRange >> config.noReturn >> config.hit >> config.miss >> config.clampLow >> config.clampHigh >>
-      config.heightBand.least >> config.heightBand.most >> box.first.x >> box.first.y >> box.last.x >> box.last.y;
+  in >> config.resolution >> config.maxRange >> config.noReturn >> config.hit >> config.miss >> config.clampLow >>
+      config.clampHigh >> config.heightBand.least >> config.heightBand.most >> box.first.x >> box.first.y >>
+      box.last.x >> box.last.y;
   const auto cells = box.empty() ? 0 : static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height());
   if (cells != in.left() / sizeof(Cell)) {
     throw base::Error("expected " + std::to_string(cells) + " cells, found " + std::to_string(in.left()) + " bytes");

@@ -32,6 +32,14 @@ struct WithinPlace {
   }
 };
 
+template <typename IdType>
+std::vector<IdType> sortedEachOnce(std::vector<IdType> ids) {
+  std::ranges::sort(ids);
+  const auto repeated = std::ranges::unique(ids);
+  ids.erase(repeated.begin(), repeated.end());
+  return ids;
+}
+
 }  // namespace
 
 struct TopologicalGraph::Impl {
@@ -145,8 +153,7 @@ std::vector<base::EdgeId> TopologicalGraph::edgesOf(base::SubMapId id) const {
   for (auto [link, end] = out_edges(impl_->vertex(id), impl_->graph); link != end; ++link) {
     ids.push_back(impl_->graph[*link].id);
   }
-  std::ranges::sort(ids);
-  return ids;
+  return sortedEachOnce(std::move(ids));  // one that leads back comes twice
 }
 
 std::vector<base::SubMapId> TopologicalGraph::neighbours(base::SubMapId id) const {
@@ -154,10 +161,7 @@ std::vector<base::SubMapId> TopologicalGraph::neighbours(base::SubMapId id) cons
   for (auto [vertex, end] = adjacent_vertices(impl_->vertex(id), impl_->graph); vertex != end; ++vertex) {
     ids.push_back(impl_->graph[*vertex].id);
   }
-  std::ranges::sort(ids);
-  const auto repeated = std::ranges::unique(ids);
-  ids.erase(repeated.begin(), repeated.end());
-  return ids;
+  return sortedEachOnce(std::move(ids));
 }
 
 std::vector<TopologicalPlace> TopologicalGraph::places() const {

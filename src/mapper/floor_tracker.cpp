@@ -23,8 +23,8 @@ constexpr double kMostWayInLift = 1.2;
 std::optional<map::EdgeKind> FloorTracker::update(double height, double distance) {
   remember({distance, height});
   if (std::abs(height - current().height) < kLevelTolerance) left_ = {distance, height};
-  const auto level = findLevel();
-  if (!level || std::abs(*level - current().height) < leastHeight_) return std::nullopt;
+  const auto level = findOtherLevel();
+  if (!level) return std::nullopt;
   const auto way = wayUpOrDown();
   current_ = floorAt(*level);
   left_ = {distance, height};
@@ -38,12 +38,14 @@ void FloorTracker::remember(const Sample& sample) {
   while (recent_.size() > 1 && recent_[1].distance <= sample.distance - kLevelWay) recent_.pop_front();
 }
 
-/// The height at which the robot goes, if it goes level.
-std::optional<double> FloorTracker::findLevel() const {
+/// The height at which the robot goes, if it goes level and a storey away from the current floor.
+std::optional<double> FloorTracker::findOtherLevel() const {
   const double end = recent_.back().distance;
   if (end - recent_.front().distance < kLevelWay) return std::nullopt;
   const auto [lowest, highest] = std::ranges::minmax(recent_, {}, &Sample::height);
   if (highest.height - lowest.height > 2.0 * kLevelTolerance) return std::nullopt;
+  const double floor = current().height;  // all of the way, or else a landing would do with the next steps upwards
+  if (lowest.height - floor < leastHeight_ && floor - highest.height < leastHeight_) return std::nullopt;
   double sum = 0.0;
   int count = 0;
   for (const auto& sample : recent_) {

@@ -37,7 +37,7 @@ class FloorTracker {
   };
 
   void remember(const Sample& sample);
-  std::optional<double> findLevel() const;
+  std::optional<double> findOtherLevel() const;
   map::EdgeKind wayUpOrDown() const;
   std::size_t floorAt(double height);
 

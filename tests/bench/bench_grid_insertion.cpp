@@ -4,6 +4,9 @@
 // their times and how far the two agree. Both use the beams that returned, up to the same range.
 //
 //   bench_grid_insertion LOG [RESOLUTION [ROUNDS]]
+#include "prodomos/io/open_source.hpp"
+#include "prodomos/map/occupancy_grid.hpp"
+
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
@@ -13,9 +16,6 @@
 #include <ctime>
 #include <numbers>
 #include <vector>
-
-#include "prodomos/io/open_source.hpp"
-#include "prodomos/map/occupancy_grid.hpp"
 
 namespace {
 
@@ -29,7 +29,9 @@ struct PlacedScan {
   mrpt::obs::CObservation2DRangeScan observation;
 };
 
-double cpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+double cpuSeconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
 
 mrpt::obs::CObservation2DRangeScan toMrpt(const prodomos::sensors::LaserScan& scan) {
   mrpt::obs::CObservation2DRangeScan observation;
@@ -45,7 +47,8 @@ mrpt::obs::CObservation2DRangeScan toMrpt(const prodomos::sensors::LaserScan& sc
   }
   const Pose2 T_body_sensor = prodomos::geometry::toPose2(scan.T_body_sensor);
   const double middle = scan.firstAngle + scan.angleStep * (static_cast<double>(beams) - 1.0) / 2.0;
-  observation.sensorPose = mrpt::poses::CPose3D(T_body_sensor.x, T_body_sensor.y, 0.0, T_body_sensor.theta + middle, 0, 0);
+  observation.sensorPose =
+      mrpt::poses::CPose3D(T_body_sensor.x, T_body_sensor.y, 0.0, T_body_sensor.theta + middle, 0, 0);
   return observation;
 }
 
@@ -85,7 +88,8 @@ OccupancyGrid insertIntoOurs(const std::vector<PlacedScan>& scans, double resolu
   return grid;
 }
 
-mrpt::maps::COccupancyGridMap2D insertIntoMrpt(const std::vector<PlacedScan>& scans, double resolution, double maxRange) {
+mrpt::maps::COccupancyGridMap2D insertIntoMrpt(const std::vector<PlacedScan>& scans, double resolution,
+                                               double maxRange) {
   mrpt::maps::COccupancyGridMap2D grid(-10, 10, -10, 10, static_cast<float>(resolution));
   grid.insertionOptions.maxDistanceInsertion = static_cast<float>(maxRange);
   grid.insertionOptions.maxOccupancyUpdateCertainty = 0.7F;
@@ -136,7 +140,8 @@ int main(int argc, char** argv) {
 
   std::vector<double> ratios;
   Agreement agreement;
-  std::printf("%s: %zu scans of %zu beams, cells of %.3f m\n", argv[1], scans, stretches[0][0].scan.ranges.size(), resolution);
+  std::printf("%s: %zu scans of %zu beams, cells of %.3f m\n", argv[1], scans, stretches[0][0].scan.ranges.size(),
+              resolution);
   for (int round = 0; round < rounds; ++round) {
     double ours = 0.0;
     double theirs = 0.0;

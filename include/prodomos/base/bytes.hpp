@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "prodomos/base/error.hpp"
+
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -11,8 +13,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "prodomos/base/error.hpp"
-
 namespace prodomos::base {
 
 static_assert(std::endian::native == std::endian::little, "blobs are little endian");
@@ -21,8 +21,7 @@ static_assert(std::endian::native == std::endian::little, "blobs are little endi
 class ByteWriter {
  public:
   template <typename T>
-    requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-  ByteWriter& operator<<(T value) {
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T> ByteWriter& operator<<(T value) {
     append(&value, sizeof value);
     return *this;
   }
@@ -32,8 +31,7 @@ class ByteWriter {
     return *this;
   }
   template <typename T>
-    requires std::is_trivially_copyable_v<T>
-  ByteWriter& operator<<(const std::vector<T>& values) {
+  requires std::is_trivially_copyable_v<T> ByteWriter& operator<<(const std::vector<T>& values) {
     *this << static_cast<std::uint64_t>(values.size());
     append(values.data(), values.size() * sizeof(T));
     return *this;
@@ -60,8 +58,7 @@ class ByteReader {
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
   template <typename T>
-    requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-  ByteReader& operator>>(T& value) {
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T> ByteReader& operator>>(T& value) {
     take(&value, sizeof value);
     return *this;
   }
@@ -71,8 +68,7 @@ class ByteReader {
     return *this;
   }
   template <typename T>
-    requires std::is_trivially_copyable_v<T>
-  ByteReader& operator>>(std::vector<T>& values) {
+  requires std::is_trivially_copyable_v<T> ByteReader& operator>>(std::vector<T>& values) {
     values.resize(takeCount(sizeof(T)));
     take(values.data(), values.size() * sizeof(T));
     return *this;
@@ -86,7 +82,8 @@ class ByteReader {
 
   /// What append() wrote.
   void take(void* data, std::size_t size) {
-    if (size > bytes_.size()) throw Error("expected " + std::to_string(size) + " more bytes, found " + std::to_string(left()));
+    if (size > bytes_.size())
+      throw Error("expected " + std::to_string(size) + " more bytes, found " + std::to_string(left()));
     if (size > 0) std::memcpy(data, bytes_.data(), size);
     bytes_ = bytes_.subspan(size);
   }
@@ -95,7 +92,8 @@ class ByteReader {
  private:
   std::size_t takeCount(std::size_t elementSize) {
     const auto count = read<std::uint64_t>();
-    if (count > left() / elementSize) throw Error("expected " + std::to_string(count) + " elements, found " + std::to_string(left()) + " bytes");
+    if (count > left() / elementSize)
+      throw Error("expected " + std::to_string(count) + " elements, found " + std::to_string(left()) + " bytes");
     return static_cast<std::size_t>(count);
   }
   std::span<const std::byte> bytes_;

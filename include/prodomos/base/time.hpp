@@ -15,9 +15,15 @@ namespace prodomos::base {
 using Duration = std::chrono::nanoseconds;
 using Time = std::chrono::time_point<std::chrono::system_clock, Duration>;
 
-inline Time fromNanoseconds(std::int64_t nanoseconds) { return Time{Duration{nanoseconds}}; }
-inline std::int64_t toNanoseconds(Time time) { return time.time_since_epoch().count(); }
-inline double seconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
+inline Time fromNanoseconds(std::int64_t nanoseconds) {
+  return Time{Duration{nanoseconds}};
+}
+inline std::int64_t toNanoseconds(Time time) {
+  return time.time_since_epoch().count();
+}
+inline double seconds(Duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
 
 /// Rounded to the nearest nanosecond.
 Duration fromSeconds(double seconds);

@@ -19,7 +19,9 @@ inline CellIndex cellAt(double x, double y, double resolution) {
   return {static_cast<int>(std::floor(x / resolution)), static_cast<int>(std::floor(y / resolution))};
 }
 
-inline double cellCentre(int index, double resolution) { return (index + 0.5) * resolution; }
+inline double cellCentre(int index, double resolution) {
+  return (index + 0.5) * resolution;
+}
 
 /// Cells first.x … last.x by first.y … last.y, both included; empty where last lies before first.
 struct CellBox {

@@ -15,19 +15,18 @@ namespace prodomos::geometry {
 /// The cells that a fan of rays from one point passes, each of them once.
 ///
 /// Rays of a scan overlap near the sensor: walked one by one, most cells are visited many times. Here the grid is swept
-/// row by row instead. In a row, neighbouring rays whose gap is narrower than a cell leave no cell between them untouched,
-/// so a whole run of them is one span, known from its first and its last ray alone. Runs only ever split: where a gap
-/// grows to a cell, and where a ray ends. A ray whose gaps to both sides have grown to a cell meets no cell of any other
-/// ray any more; it leaves the runs and is
-/// walked to its end alone.
+/// row by row instead. In a row, neighbouring rays whose gap is narrower than a cell leave no cell between them
+/// untouched, so a whole run of them is one span, known from its first and its last ray alone. Runs only ever split:
+/// where a gap grows to a cell, and where a ray ends. A ray whose gaps to both sides have grown to a cell meets no cell
+/// of any other ray any more; it leaves the runs and is walked to its end alone.
 ///
 /// The result is exact: a cell is in a span if and only if a ray meets its inside. Coordinates are rounded to odd
 /// multiples of 1/256 cell, so that no ray begins or ends on a border between cells; crossings are then fractions of
 /// whole numbers small enough for a double division to tell exactly on which side of a border they lie.
 class RayFan {
  public:
-  /// Calls visit(y, first, last) for cells first … last of row y, both included. No cell comes twice. All coordinates in
-  /// cells and within ±4 million.
+  /// Calls visit(y, first, last) for cells first … last of row y, both included. No cell comes twice. All coordinates
+  /// in cells and within ±4 million.
   template <typename Visit>
   void trace(const Eigen::Vector2d& origin, std::span<const Eigen::Vector2d> ends, Visit&& visit) {
     const Span own = begin(origin, ends);
@@ -109,28 +108,30 @@ class RayFan {
 /// Step by step, in whole numbers, and without branches on what chance decides.
 template <typename Visit>
 void RayFan::walk(LoneRay ray, int direction, Visit& visit) const {
-  // A corner belongs to neither of the cells that only touch there: from the left, the cell before it was the last.
-  const auto lastCell = [](std::int32_t x, std::int32_t rest) {
-    return (x >> 8) - (static_cast<int>((x & 0xFF) == 0) & static_cast<int>(rest == 0));
-  };
+  // A corner belongs to neither of the cells that only touch there: seen from the left, the cell before it is the last.
+  const auto lastCell = [](std::int32_t x, std::int32_t rest) { return (x - static_cast<int>(rest == 0)) >> 8; };
+  int cell = ray.x >> 8;
+  int last = lastCell(ray.x, ray.rest);
   int y = originRow_ + direction * ray.row;
-  for (; ray.row < ray.endRow; ++ray.row, y += direction) {
-    const std::int32_t sum = ray.rest + ray.restStep;
-    const std::int32_t carry = -static_cast<std::int32_t>(sum >= ray.dy);  // all bits or none
-    const std::int32_t nextX = ray.x + ray.step - carry;
-    const std::int32_t nextRest = sum - (ray.dy & carry);
+  for (int row = ray.row; row < ray.endRow; ++row, y += direction) {
+    const int cellBelow = cell;
+    const int lastBelow = last;
+    ray.rest += ray.restStep;
+    const std::int32_t carry = -static_cast<std::int32_t>(ray.rest >= ray.dy);  // all bits or none
+    ray.rest -= ray.dy & carry;
+    ray.x += ray.step - carry;
+    cell = ray.x >> 8;
+    last = lastCell(ray.x, ray.rest);
     if (ray.leansRight) {
-      visit(y, ray.x >> 8, lastCell(nextX, nextRest));
+      visit(y, cellBelow, last);
     } else {
-      visit(y, nextX >> 8, lastCell(ray.x, ray.rest));
+      visit(y, cell, lastBelow);
     }
-    ray.x = nextX;
-    ray.rest = nextRest;
   }
   if (ray.leansRight) {
-    visit(y, ray.x >> 8, ray.endCell);
+    visit(y, cell, ray.endCell);
   } else {
-    visit(y, ray.endCell, lastCell(ray.x, ray.rest));
+    visit(y, ray.endCell, last);
   }
 }
 

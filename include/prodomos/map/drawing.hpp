@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
-#include <string>
-#include <vector>
-
 #include "prodomos/geometry/pose.hpp"
 #include "prodomos/sensors/image.hpp"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
 
 namespace prodomos::map {
 

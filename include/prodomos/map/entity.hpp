@@ -2,17 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "prodomos/base/id.hpp"
+#include "prodomos/base/time.hpp"
+#include "prodomos/geometry/pose.hpp"
+
 #include <Eigen/Core>
+
 #include <array>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
-
-#include "prodomos/base/id.hpp"
-#include "prodomos/base/time.hpp"
-#include "prodomos/geometry/pose.hpp"
 
 namespace prodomos::map {
 
@@ -32,16 +33,16 @@ enum class DoorState { kUnknown, kClosed, kAjar, kOpen };
 
 /// 002 §II-D. The entity's x-axis is the normal, pointing to the far side; its position is the centre of the leaf.
 struct Door {
-  double width = 0.0;   ///< metres
-  double height = 0.0;  ///< metres, 0 = not measured
-  bool hasLeaf = true;  ///< false: an open doorway
+  double width = 0.0;                         ///< metres
+  double height = 0.0;                        ///< metres, 0 = not measured
+  bool hasLeaf = true;                        ///< false: an open doorway
   HingeSide hingeSide = HingeSide::kUnknown;  ///< as seen along the x-axis
   DoorState state = DoorState::kUnknown;
 };
 
 /// 002 §II-E. The entity's x-axis is the direction of the torso.
 struct Human {
-  int dominantSide = 0;                                 ///< -1 left, +1 right, 0 not known
+  int dominantSide = 0;                                ///< -1 left, +1 right, 0 not known
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< in the sub-map, m/s
 };
 

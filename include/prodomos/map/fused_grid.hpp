@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
-
 #include "prodomos/map/map_view.hpp"
 #include "prodomos/map/occupancy_grid.hpp"
+
+#include <optional>
 
 namespace prodomos::map {
 

@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "prodomos/base/bytes.hpp"
+#include "prodomos/map/drawing.hpp"
+#include "prodomos/sensors/reading.hpp"
+
 #include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include "prodomos/base/bytes.hpp"
-#include "prodomos/map/drawing.hpp"
-#include "prodomos/sensors/reading.hpp"
 
 namespace prodomos::map {
 
@@ -21,8 +21,8 @@ struct PlacedReading {
   const sensors::Mask* movers = nullptr;  ///< pixels, points or beams that are of something that moves; null: none
 };
 
-/// One representation of a sub-map, in the sub-map's frame. The map file, the exporters and the viewers know no more of a
-/// layer than this. A new one is a class, and a line in the table of src/map/layers.cpp.
+/// One representation of a sub-map, in the sub-map's frame. The map file, the exporters and the viewers know no more of
+/// a layer than this. A new one is a class, and a line in the table of src/map/layers.cpp.
 class MapLayer {
  public:
   virtual ~MapLayer() = default;

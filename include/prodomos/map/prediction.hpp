@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "prodomos/base/id.hpp"
+#include "prodomos/base/time.hpp"
+
 #include <Eigen/Core>
+
 #include <optional>
 #include <string_view>
 #include <vector>
-
-#include "prodomos/base/id.hpp"
-#include "prodomos/base/time.hpp"
 
 namespace prodomos::map {
 

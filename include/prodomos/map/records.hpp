@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "prodomos/base/id.hpp"
 #include "prodomos/base/time.hpp"
 #include "prodomos/geometry/pose.hpp"
 #include "prodomos/sensors/reading.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
 
 /// The plain rows of a map file that are neither graph nor layers.
 namespace prodomos::map {
@@ -19,14 +19,15 @@ enum class SessionState { kRunning, kComplete };
 /// One log's run.
 struct Session {
   base::SessionId id;
-  std::string log;       ///< path as given
-  std::string logKind;   ///< "MRPT rawlog"
-  std::string config;    ///< YAML, every key
-  std::string poses;     ///< "odometry", "recorded", a file's path
-  std::string version;   ///< of prodomos
+  std::string log;      ///< path as given
+  std::string logKind;  ///< "MRPT rawlog"
+  std::string config;   ///< YAML, every key
+  std::string poses;    ///< "odometry", "recorded", a file's path
+  std::string version;  ///< of prodomos
   sensors::ClassTable classes;
-  geometry::Pose3 T_map_travel = geometry::Pose3::Identity();  ///< where the frame of its odometry or recorded poses lies
-  base::Time begin{};  ///< of the first reading placed
+  geometry::Pose3 T_map_travel =
+      geometry::Pose3::Identity();  ///< where the frame of its odometry or recorded poses lies
+  base::Time begin{};               ///< of the first reading placed
   base::Time end{};
   SessionState state = SessionState::kRunning;
   double distance = 0.0;  ///< metres

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <memory>
-#include <string_view>
-#include <vector>
-
 #include "prodomos/map/entity.hpp"
 #include "prodomos/map/layer.hpp"
 #include "prodomos/map/topological_graph.hpp"
+
+#include <memory>
+#include <string_view>
+#include <vector>
 
 namespace prodomos::map {
 

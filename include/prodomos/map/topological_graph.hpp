@@ -2,15 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "prodomos/base/id.hpp"
+#include "prodomos/base/time.hpp"
+#include "prodomos/geometry/pose.hpp"
+
 #include <Eigen/Core>
+
 #include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
-
-#include "prodomos/base/id.hpp"
-#include "prodomos/base/time.hpp"
-#include "prodomos/geometry/pose.hpp"
 
 namespace prodomos::map {
 
@@ -84,9 +85,9 @@ class TopologicalGraph {
   const Edge& getEdge(base::EdgeId id) const;
   Edge& getEdge(base::EdgeId id);
 
-  std::vector<base::SubMapId> nodes() const;                      ///< ascending
-  std::vector<base::EdgeId> edges() const;                        ///< ascending
-  std::vector<base::EdgeId> edgesOf(base::SubMapId id) const;     ///< ascending
+  std::vector<base::SubMapId> nodes() const;                        ///< ascending
+  std::vector<base::EdgeId> edges() const;                          ///< ascending
+  std::vector<base::EdgeId> edgesOf(base::SubMapId id) const;       ///< ascending
   std::vector<base::SubMapId> neighbours(base::SubMapId id) const;  ///< ascending, each once
 
   /// Ordered by their least sub-map; a predicted node is a place of its own.

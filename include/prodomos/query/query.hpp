@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "prodomos/map/map_view.hpp"
+#include "prodomos/map/occupancy_grid.hpp"
+
 #include <Eigen/Core>
+
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "prodomos/map/map_view.hpp"
-#include "prodomos/map/occupancy_grid.hpp"
 
 /// Questions of planners. All read-only, on a MapView of a file or of a running mapper.
 namespace prodomos::query {
@@ -27,9 +28,9 @@ struct PredictedRoom {
   base::EntityId cause;
   std::optional<int> floor;
   double probability = 0.0;
-  double expectedArea = 0.0;                     ///< m²
-  geometry::Pose2 viewpoint_in_map;              ///< where to stand to enter it: free, in front of the door, facing it
-  std::optional<map::Route> route;               ///< from `from`, where one was given
+  double expectedArea = 0.0;         ///< m²
+  geometry::Pose2 viewpoint_in_map;  ///< where to stand to enter it: free, in front of the door, facing it
+  std::optional<map::Route> route;   ///< from `from`, where one was given
 };
 
 /// Ordered by probability, the greatest first. Empty for maps without predictions.

@@ -1,0 +1,41 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 the prodomos authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The same log, configuration and version make the same map, byte for byte in every export."""
+
+import os
+import subprocess
+import unittest
+
+from program import SystemTest, dataset, exports, main, tables
+
+
+class Determinism(SystemTest):
+    def check(self, log, *options):
+        runs = []
+        for name in ("first", "second"):
+            folder = self.folder / name
+            folder.mkdir()
+            self.replay(log, folder / "map.prodomos", *options)
+            runs.append((exports(folder / "map.prodomos", folder / "exports"), tables(folder / "map.prodomos")))
+        self.assertGreaterEqual(len(runs[0][0]), 13)
+        self.assertEqual(runs[0][0], runs[1][0])
+        self.assertEqual(runs[0][1], runs[1][1])
+
+    def test_of_a_laser_log(self):
+        self.check(dataset("laser/driving_in_office.rawlog"))
+
+    def test_of_depth_images(self):
+        self.check(dataset("rgbd/tum_fr3_structure"))
+
+    def test_of_the_demo(self):
+        generator = os.environ.get("PRODOMOS_DEMO_LOG", "")
+        if not os.path.exists(generator):
+            raise unittest.SkipTest("the demo's generator is not built (PRODOMOS_DEMO_LOG)")
+        log = self.folder / "demo.rawlog"
+        subprocess.run([generator, log], check=True, capture_output=True)
+        self.check(log)
+
+
+if __name__ == "__main__":
+    main()
