@@ -12,7 +12,7 @@ namespace {
 constexpr int kUnitsPerCell = 256;
 
 std::int32_t toUnits(double cells) {
-  return 2 * static_cast<std::int32_t>(std::floor(cells * (kUnitsPerCell / 2))) + 1;
+  return 2 * static_cast<std::int32_t>(std::floor(cells * (0.5 * kUnitsPerCell))) + 1;
 }
 
 int cellOf(std::int32_t units) {
@@ -103,14 +103,12 @@ int RayFan::lastRowWithoutGap(const Ray& right, const Ray& left, int lastRow) co
 /// Scans come sorted one way or the other, at most begun in the middle.
 void RayFan::sortFromRightToLeft(std::vector<Ray>& rays) {
   const auto order = [](const Ray& a, const Ray& b) { return a.slope > b.slope; };
-  for (int attempt = 0; attempt < 2; ++attempt) {
-    const auto seam = std::is_sorted_until(rays.begin(), rays.end(), order);
-    if (seam == rays.end()) return;
-    std::rotate(rays.begin(), seam, rays.end());
-    if (std::is_sorted(rays.begin(), rays.end(), order)) return;
+  if (rays.size() > 2 && order(rays[rays.size() / 2], rays[rays.size() / 2 - 1]))
     std::reverse(rays.begin(), rays.end());
-  }
-  std::sort(rays.begin(), rays.end(), order);
+  const auto seam = std::is_sorted_until(rays.begin(), rays.end(), order);
+  if (seam == rays.end()) return;
+  std::rotate(rays.begin(), seam, rays.end());
+  if (!std::is_sorted(rays.begin(), rays.end(), order)) std::sort(rays.begin(), rays.end(), order);
 }
 
 /// Finds the row after which each two neighbours part, and from which on each ray is alone.
@@ -144,44 +142,34 @@ void RayFan::scheduleSplits(int direction) {
   }
 }
 
-/// Splits the runs between the pairs whose last row without a gap was the row before.
-void RayFan::splitRuns(int row) {
-  int pair = expiring_[static_cast<std::size_t>(row) - 1];
-  if (pair < 0) return;
-  splitRuns_.clear();
-  for (auto run : runs_) {
-    for (; pair >= 0 && pair < run.last; pair = nextExpiring_[static_cast<std::size_t>(pair)]) {
-      splitRuns_.push_back({run.first, pair});
-      run.first = pair + 1;
-    }
-    splitRuns_.push_back(run);
-  }
-  runs_.swap(splitRuns_);
-}
-
-/// The row's cells of rays that share some. Rays that share none from here on leave the runs.
+/// The row's cells of rays that share some. Runs split where a gap has opened in the row before; rays that share no
+/// cell from here on leave them.
 std::span<const RayFan::Span> RayFan::sweepRow(int row) {
-  splitRuns(row);
   const auto& rays = *rays_;
   crossed_.clear();
-  std::size_t kept = 0;
-  for (const auto& run : runs_) {
+  runsAbove_.clear();
+  const auto sweep = [&](Run run) {
     const auto& right = rays[static_cast<std::size_t>(run.first)];
     if (run.first == run.last) {
-      if (right.endRow < row) continue;
-      if (right.aloneFrom <= row) {
-        leaveAlone(right, row);
-        continue;
-      }
+      if (right.endRow < row) return;
+      if (right.aloneFrom <= row) return leaveAlone(right, row);
     }
     crossed_.push_back({firstCrossed(rays[static_cast<std::size_t>(run.last)], row), lastCrossed(right, row)});
-    runs_[kept++] = run;
+    runsAbove_.push_back(run);
     // Runs come from right to left; only rays that end within the row can break the order, and not by far.
     for (auto at = crossed_.size() - 1; at > 0 && crossed_[at].first > crossed_[at - 1].first; --at) {
       std::swap(crossed_[at], crossed_[at - 1]);
     }
+  };
+  int pair = expiring_[static_cast<std::size_t>(row) - 1];
+  for (auto run : runs_) {
+    for (; pair >= 0 && pair < run.last; pair = nextExpiring_[static_cast<std::size_t>(pair)]) {
+      sweep({run.first, pair});
+      run.first = pair + 1;
+    }
+    sweep(run);
   }
-  runs_.resize(kept);
+  runs_.swap(runsAbove_);
 
   spans_.clear();
   for (std::size_t i = crossed_.size(); i > 0;) {

@@ -28,14 +28,15 @@ std::vector<std::byte> compress(std::span<const std::byte> raw) {
 }
 
 std::vector<std::byte> decompress(std::span<const std::byte> packed, std::size_t rawSize) {
-  std::vector<std::byte> raw(rawSize);
-  uLongf size = static_cast<uLongf>(rawSize);
-  const int code =
-      uncompress(reinterpret_cast<Bytef*>(raw.data()), &size, toZlib(packed.data()), static_cast<uLong>(packed.size()));
-  if (code != Z_OK || size != rawSize) {
-    throw base::Error("expected " + std::to_string(rawSize) + " compressed bytes, found a damaged stream");
+  constexpr std::size_t kGreatestRatio = 1032;  // of deflate; more is not worth asking memory for
+  if (rawSize / kGreatestRatio <= packed.size()) {
+    std::vector<std::byte> raw(rawSize);
+    uLongf size = static_cast<uLongf>(rawSize);
+    const int code = uncompress(reinterpret_cast<Bytef*>(raw.data()), &size, toZlib(packed.data()),
+                                static_cast<uLong>(packed.size()));
+    if (code == Z_OK && size == rawSize) return raw;
   }
-  return raw;
+  throw base::Error("expected " + std::to_string(rawSize) + " compressed bytes, found a damaged stream");
 }
 
 }  // namespace prodomos::map

@@ -105,7 +105,8 @@ std::vector<std::byte> Statement::get<std::vector<std::byte>>(int column) const 
   return {bytes, bytes + sqlite3_column_bytes(statement_, column)};
 }
 
-Database::Database(std::filesystem::path path, Access access) : path_(path.empty() ? ":memory:" : path.string()) {
+Database::Database(const std::filesystem::path& path, Access access)
+    : path_(path.empty() ? ":memory:" : path.string()) {
   const int flags = access == Access::kRead    ? SQLITE_OPEN_READONLY
                     : access == Access::kWrite ? SQLITE_OPEN_READWRITE
                                                : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
@@ -119,8 +120,8 @@ Database::Database(std::filesystem::path path, Access access) : path_(path.empty
   sqlite3_busy_timeout(connection_, 10'000);
   if (access == Access::kRead) {
     // A finished map in a folder that cannot be written: SQLite's WAL mode wants to make its side files there.
-    if (sqlite3_exec(connection_, "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr) == SQLITE_CANTOPEN &&
-        !std::filesystem::exists(path_ + "-wal")) {
+    const int code = sqlite3_exec(connection_, "SELECT count(*) FROM sqlite_master", nullptr, nullptr, nullptr);
+    if ((code == SQLITE_CANTOPEN || code == SQLITE_READONLY) && !std::filesystem::exists(path_ + "-wal")) {
       sqlite3_close(connection_);
       std::string uri = "file:";
       for (const char c : path_) {

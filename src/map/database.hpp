@@ -68,7 +68,7 @@ class Database {
   enum class Access { kRead, kWrite, kCreate };
 
   /// An empty path with kCreate: in memory.
-  Database(std::filesystem::path path, Access access);
+  Database(const std::filesystem::path& path, Access access);
   ~Database();
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;

@@ -106,9 +106,9 @@ std::string toJson(const EntityAttributes& attributes) {
   return out.dump();
 }
 
-EntityAttributes entityAttributesFromJson(std::string_view className, std::string_view text) {
+EntityAttributes entityAttributesFromJson(std::string_view className, std::string_view json) {
   try {
-    const auto in = json::parse(text);
+    const auto in = nlohmann::json::parse(json);
     if (className == "staircase") return staircaseFrom(in);
     if (className == "door") return doorFrom(in);
     if (className == "human") return Human{in.at("dominant_side"), toVector(in.at("velocity"))};
@@ -116,7 +116,7 @@ EntityAttributes entityAttributesFromJson(std::string_view className, std::strin
       return ObjectBox{in.at("class"), toVector(in.at("size")), toVector(in.at("velocity"))};
     if (className == "cuboid") return Cuboid{in.at("class"), toVector(in.at("size"))};
     if (className == "plane_patch") return planePatchFrom(in);
-  } catch (const json::exception& fault) {
+  } catch (const nlohmann::json::exception& fault) {
     throw base::Error("attributes of a " + std::string(className) + ": " + fault.what());
   }
   throw base::Error("expected a known class of entities, found '" + std::string(className) + "'");

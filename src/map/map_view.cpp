@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace prodomos::map {
 
@@ -52,7 +53,7 @@ std::vector<Entity> readEntities(const Database& database) {
     entity.submap = getId<base::SubMapId>(row, 1);
     entity.T_submap_entity = getPose(row, 3);
     entity.attributes = entityAttributesFromJson(row.get<std::string>(2), row.get<std::string>(10));
-    entity.confidence = row.get<double>(11);
+    entity.confidence = row.find<double>(11).value_or(std::numeric_limits<double>::quiet_NaN());
     entity.observations = row.get<int>(12);
     entity.firstSeen = getTime(row, 13);
     entity.lastSeen = getTime(row, 14);

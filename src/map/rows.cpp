@@ -12,6 +12,15 @@ namespace prodomos::map {
 
 using nlohmann::json;
 
+namespace {
+
+/// JSON has no NaN: written as null, read back here.
+double real(const json& number) {
+  return number.is_null() ? std::numeric_limits<double>::quiet_NaN() : number.get<double>();
+}
+
+}  // namespace
+
 Statement& operator<<(Statement& statement, const geometry::Pose3& pose) {
   const auto& t = pose.translation();
   Eigen::Quaterniond q(pose.linear());
@@ -39,9 +48,7 @@ Matrix6 symmetricFrom(const std::string& upperTriangle) {
   std::size_t at = 0;
   for (int row = 0; row < 6; ++row) {
     for (int column = row; column < 6; ++column) {
-      const auto& number = numbers.at(at++);
-      matrix(row, column) = matrix(column, row) =
-          number.is_null() ? std::numeric_limits<double>::quiet_NaN() : number.get<double>();
+      matrix(row, column) = matrix(column, row) = real(numbers.at(at++));
     }
   }
   return matrix;
@@ -74,8 +81,10 @@ std::vector<PredictedArea> predictedAreasFrom(const std::string& text) {
   std::vector<PredictedArea> areas;
   for (const auto& entry : json::parse(text)) {
     PredictedArea area;
-    area.threshold = entry.at("threshold");
-    for (const auto& point : entry.at("outline")) area.outline_in_submap.emplace_back(point.at(0), point.at(1));
+    area.threshold = real(entry.at("threshold"));
+    for (const auto& point : entry.at("outline")) {
+      area.outline_in_submap.emplace_back(real(point.at(0)), real(point.at(1)));
+    }
     areas.push_back(std::move(area));
   }
   return areas;

@@ -19,7 +19,7 @@ void describe(base::ConfigVisitor& visitor, MapperConfig& config) {
   visitor.section("submap", "when a new sub-map begins");
   visitor.key("max_distance", config.submap.maxDistance, "m", {0.5, 1000.0}, "after this way travelled");
   visitor.key("least_overlap", config.submap.leastOverlap, "", {0.0, 1.0},
-              "when less of a reading's end points lies in known cells");
+              "when less of a reading's end points lies in cells that were seen where the sub-map began");
   visitor.key("overlap_step", config.submap.overlapStep, "m or rad", {0.05, 100.0},
               "way or turn between two looks at the overlap");
   visitor.endSection();

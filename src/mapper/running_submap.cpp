@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mapper/running_submap.hpp"
 
-#include "prodomos/map/occupancy_grid.hpp"
-
 #include "mapper/pose_bytes.hpp"
 
 namespace prodomos::mapper {
@@ -27,14 +25,14 @@ void RunningSubMap::move(const geometry::Pose3& T_before_after) {
 bool RunningSubMap::isLeftBy(const map::PlacedReading& placed, const SubMapConfig& config) {
   const double way = submap_.node.distance;
   if (way >= config.maxDistance || submap_.node.readings >= kMostReadings) return true;
-  if (way - wayAtLastLook_ < config.overlapStep && turned_ - turnAtLastLook_ < config.overlapStep) return false;
+  if (way < config.overlapStep) return false;  // a camera that turns on the spot looks around
+  const bool isDue = way - wayAtLastLook_ >= config.overlapStep || turned_ - turnAtLastLook_ >= config.overlapStep;
+  if (!isDue) return false;
   wayAtLastLook_ = way;
   turnAtLastLook_ = turned_;
-  for (auto& layer : submap_.layers) {
-    if (auto* grid = dynamic_cast<map::OccupancyGrid*>(layer.get())) {
-      return grid->overlap(placed) < config.leastOverlap;
-    }
-  }
+  if (seenAtBegin_) return seenAtBegin_->overlap(placed) < config.leastOverlap;
+  const auto* grid = dynamic_cast<const map::OccupancyGrid*>(submap_.findLayer(map::OccupancyGrid::kTypeId));
+  if (grid != nullptr) seenAtBegin_.emplace(*grid);
   return false;
 }
 

@@ -4,6 +4,7 @@
 
 #include "prodomos/base/stopwatch.hpp"
 #include "prodomos/map/map_store.hpp"
+#include "prodomos/map/occupancy_grid.hpp"
 #include "prodomos/mapper/config.hpp"
 
 #include <memory>
@@ -45,6 +46,9 @@ class RunningSubMap {
   std::optional<map::Edge> edge_;
   std::vector<map::TrajectoryPoint> trajectory_;
   double turned_ = 0.0;
+  // The grid after the first half metre or so. The whole grid would not do: what a reading shows has nearly always been
+  // seen a moment before.
+  std::optional<map::OccupancyGrid> seenAtBegin_;
   double wayAtLastLook_ = 0.0;
   double turnAtLastLook_ = 0.0;
 };

@@ -76,7 +76,6 @@ class RayFan {
   Span begin(const Eigen::Vector2d& origin, std::span<const Eigen::Vector2d> ends);
   void scheduleSplits(int direction);
   std::span<const Span> sweepRow(int row);
-  void splitRuns(int row);
   void leaveAlone(const Ray& ray, int row);
   double crossing(const Ray& ray, int row) const;
   int firstCrossed(const Ray& ray, int row) const;
@@ -97,7 +96,7 @@ class RayFan {
   std::vector<Ray> down_;
   const std::vector<Ray>* rays_ = nullptr;  // the ones of the direction at hand
   std::vector<Run> runs_;
-  std::vector<Run> splitRuns_;
+  std::vector<Run> runsAbove_;
   std::vector<int> expiring_;      // by row: the first of the pairs (i, i + 1) whose gap opens there, -1 = none
   std::vector<int> nextExpiring_;  // by pair: the next one of the same row
   std::vector<LoneRay> lone_;

@@ -19,7 +19,7 @@ struct InputConfig {
 /// When a new sub-map begins (002 §II-A). Crossed doors join these once they are detected.
 struct SubMapConfig {
   double maxDistance = 6.0;    ///< metres travelled within
-  double leastOverlap = 0.35;  ///< of a reading's end points with cells the sub-map knows
+  double leastOverlap = 0.25;  ///< of a reading's end points with cells the sub-map knew after its first overlapStep
   double overlapStep = 0.5;    ///< metres, or radians turned, between two looks at the overlap
 };
 
