@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prodomos/query/query.hpp"
+
+#include "prodomos/mapper/mapper.hpp"
+
+#include "support/laser_world.hpp"
+#include "support/sample_map.hpp"
+#include "support/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace prodomos::query {
+namespace {
+
+using base::EdgeId;
+using base::SubMapId;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+/// Ground floor: corridor s1, s2, office s3 behind a door; floor 1: s4, s5 up the stairs.
+class SampleMapQuery : public ::testing::Test {
+ protected:
+  test::SampleMap map_;
+  map::MapView view_ = map_.view();
+};
+
+TEST_F(SampleMapQuery, FindsThePlaceOfASpot) {
+  const auto corridor = placeAt(view_, {0.3, 0.2, 0});
+  EXPECT_EQ(corridor.submap, SubMapId{1});
+  EXPECT_EQ(corridor.floor, 0);
+  EXPECT_EQ(corridor.state, map::CellState::kFree);
+  EXPECT_LT(corridor.probability, 0.5);
+  EXPECT_EQ(corridor.place, view_.graph().getNode({1}).place);
+
+  const auto office = placeAt(view_, {4.9, 3.4, 0});
+  EXPECT_EQ(office.submap, SubMapId{3});
+  EXPECT_NE(office.place, corridor.place) << "a door lies between";
+}
+
+TEST_F(SampleMapQuery, AsksTheSubMapThatBeganNearest) {
+  EXPECT_EQ(placeAt(view_, {2.3, 0.0, 0}).submap, SubMapId{1});
+  EXPECT_EQ(placeAt(view_, {2.7, 0.0, 0}).submap, SubMapId{2});
+}
+
+TEST_F(SampleMapQuery, AsksOnTheFloorThatIsNamed) {
+  EXPECT_EQ(placeAt(view_, {0.4, 0.1, 0}).submap, SubMapId{1});
+  EXPECT_EQ(placeAt(view_, {0.4, 0.1, 1}).submap, SubMapId{5});
+  EXPECT_EQ(placeAt(view_, {0.4, 0.1, 1}).floor, 1);
+  EXPECT_EQ(placeAt(view_, {0.4, 0.1, 7}).submap, std::nullopt);
+  EXPECT_EQ(placeAt(view_, {0.4, 0.1, {}}).submap, SubMapId{5}) << "without a floor, the nearest of any";
+}
+
+TEST_F(SampleMapQuery, TellsWallsFromFreeFloor) {
+  const auto wall = placeAt(view_, {0.3, -1.1, 0});
+  EXPECT_EQ(wall.state, map::CellState::kOccupied);
+  EXPECT_GT(wall.probability, 0.5);
+}
+
+TEST_F(SampleMapQuery, KnowsNothingOfSpotsThatNobodySaw) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const auto& spot : {Position{50, 50, {}}, Position{9.25, 0.0, 0}, Position{kNan, 0, {}},
+                           Position{0, kInfinity, {}}, Position{-1e300, 1e300, {}}}) {
+    const auto answer = placeAt(view_, spot);
+    EXPECT_EQ(answer.submap, std::nullopt) << spot.x << "," << spot.y;
+    EXPECT_EQ(answer.place, std::nullopt);
+    EXPECT_EQ(answer.state, map::CellState::kUnknown);
+    EXPECT_EQ(answer.probability, 0.5);
+  }
+}
+
+TEST_F(SampleMapQuery, FindsTheShortestRoute) {
+  const auto route = routeBetween(view_, {0.0, 0.0, 0}, {5.0, 3.4, 0});
+  ASSERT_TRUE(route);
+  EXPECT_THAT(route->submaps, ElementsAre(SubMapId{1}, SubMapId{2}, SubMapId{3}));
+  EXPECT_THAT(route->edges, SizeIs(2));
+  EXPECT_NEAR(route->length, 5.0 + 2.75, 1e-9);
+}
+
+TEST_F(SampleMapQuery, RoutesOverStairs) {
+  const auto route = routeBetween(view_, {5.0, 0.0, 0}, {1.0, 0.0, 1});
+  ASSERT_TRUE(route);
+  EXPECT_THAT(route->submaps, ElementsAre(SubMapId{2}, SubMapId{1}, SubMapId{4}, SubMapId{5}));
+}
+
+TEST_F(SampleMapQuery, NeedsNoEdgeWithinASubMap) {
+  const auto route = routeBetween(view_, {0.1, 0.0, 0}, {-0.4, 0.3, 0});
+  ASSERT_TRUE(route);
+  EXPECT_THAT(route->submaps, ElementsAre(SubMapId{1}));
+  EXPECT_THAT(route->edges, IsEmpty());
+  EXPECT_EQ(route->length, 0.0);
+}
+
+TEST_F(SampleMapQuery, HasNoRouteToUnknownSpots) {
+  EXPECT_EQ(routeBetween(view_, {0, 0, 0}, {50, 0, 0}), std::nullopt);
+  EXPECT_EQ(routeBetween(view_, {50, 0, 0}, {0, 0, 0}), std::nullopt);
+}
+
+TEST_F(SampleMapQuery, TellsWhereToStandToEnterAPredictedRoom) {
+  const auto rooms = predictedRooms(view_);
+  ASSERT_THAT(rooms, SizeIs(1));
+  const auto& room = rooms[0];
+  EXPECT_EQ(room.node, SubMapId{6});
+  EXPECT_EQ(room.cause.value, 2);
+  EXPECT_EQ(room.floor, 0);
+  EXPECT_EQ(room.probability, 0.82);
+  EXPECT_EQ(room.expectedArea, 11.5);
+  EXPECT_EQ(room.route, std::nullopt) << "nobody said from where";
+  // The door is at x = 7.875, and its normal looks along x.
+  EXPECT_NEAR(room.viewpoint_in_map.x, 7.075, 1e-9);
+  EXPECT_NEAR(room.viewpoint_in_map.y, 0.0, 1e-9);
+  EXPECT_NEAR(room.viewpoint_in_map.theta, 0.0, 1e-9);
+  EXPECT_EQ(placeAt(view_, {room.viewpoint_in_map.x, room.viewpoint_in_map.y, 0}).state, map::CellState::kFree);
+}
+
+TEST_F(SampleMapQuery, TellsTheWayToAPredictedRoom) {
+  const auto rooms = predictedRooms(view_, 0.0, Position{4.9, 3.4, 0});
+  ASSERT_THAT(rooms, SizeIs(1));
+  ASSERT_TRUE(rooms[0].route);
+  EXPECT_THAT(rooms[0].route->submaps, ElementsAre(SubMapId{3}, SubMapId{2}));
+  EXPECT_EQ(predictedRooms(view_, 0.0, Position{50, 50, 0}).at(0).route, std::nullopt);
+}
+
+TEST_F(SampleMapQuery, LeavesOutImprobableRooms) {
+  EXPECT_THAT(predictedRooms(view_, 0.82), SizeIs(1));
+  EXPECT_THAT(predictedRooms(view_, 0.83), IsEmpty());
+}
+
+TEST(PredictedRooms, AreThoseStillOpenTheMostProbableFirst) {
+  const test::SampleMap sample;
+  const auto whole = sample.view();
+  map::MapChange change;
+  change.sessions = whole.sessions();
+  change.floors = whole.floors();
+  for (const auto id : whole.graph().nodes()) change.nodes.push_back(whole.graph().getNode(id));
+  change.entities = whole.entities();
+  const auto predict = [&](int id, double probability, map::PredictionState state) {
+    auto prediction = whole.predictions().at(0);
+    prediction.id = {id};
+    prediction.probability = probability;
+    prediction.state = state;
+    change.predictions.push_back(prediction);
+  };
+  predict(1, 0.4, map::PredictionState::kOpen);
+  predict(2, 0.9, map::PredictionState::kOpen);
+  predict(3, 0.9, map::PredictionState::kOpen);
+  predict(4, 1.0, map::PredictionState::kConfirmed);
+  predict(5, 1.0, map::PredictionState::kRefuted);
+  predict(6, 1.0, map::PredictionState::kMerged);
+  auto store = map::MapStore::inMemory();
+  store.commit(change);
+  std::vector<std::int64_t> found;
+  for (const auto& room : predictedRooms(store.view())) found.push_back(room.prediction.value);
+  EXPECT_THAT(found, ElementsAre(2, 3, 1));
+}
+
+/// 25 m through four rooms.
+void drive(mapper::Mapper& mapper) {
+  testing::LaserRobot robot;
+  robot.beams = 91;
+  for (const auto& reading : driveThrough(testing::fourRooms(), {{1.0, 1.0}, {13.0, 1.0}, {6.0, 1.1}}, robot)) {
+    mapper.process(reading);
+  }
+}
+
+TEST(Query, AnswersOfARunningMapperAsOfItsFile) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "map.prodomos";
+  auto store = map::MapStore::create(path);
+  mapper::Mapper mapper(store, {}, {.path = "live", .kind = "a test"});
+  EXPECT_EQ(placeAt(mapper.view(), {0, 0, 0}).submap, std::nullopt) << "nothing is seen yet";
+  drive(mapper);
+  const auto running = mapper.view();
+  ASSERT_GT(running.graph().nodes().size(), map::MapView::open(path).graph().nodes().size());
+  mapper.finish();
+  const auto written = map::MapView::open(path);
+
+  int known = 0;
+  for (double x = -0.5; x < 14.0; x += 0.7) {
+    for (double y = -0.5; y < 3.0; y += 0.7) {
+      const auto live = placeAt(running, {x, y, 0});
+      const auto read = placeAt(written, {x, y, 0});
+      EXPECT_EQ(live.submap, read.submap);
+      EXPECT_EQ(live.place, read.place);
+      EXPECT_EQ(live.probability, read.probability);
+      known += live.submap ? 1 : 0;
+      const auto liveRoute = routeBetween(running, {0, 0, 0}, {x, y, 0});
+      const auto readRoute = routeBetween(written, {0, 0, 0}, {x, y, 0});
+      ASSERT_EQ(liveRoute.has_value(), readRoute.has_value());
+      if (liveRoute) {
+        EXPECT_EQ(liveRoute->submaps, readRoute->submaps);
+      }
+    }
+  }
+  EXPECT_GT(known, 50);
+  EXPECT_THAT(predictedRooms(running), IsEmpty());
+  EXPECT_THAT(predictedRooms(written), IsEmpty());
+}
+
+TEST(Query, HasNoRouteBetweenSessionsThatNothingJoins) {
+  auto store = map::MapStore::inMemory();
+  for (int session = 0; session < 2; ++session) {
+    mapper::Mapper mapper(store, {}, {.path = "live", .kind = "a test"});
+    drive(mapper);
+    mapper.finish();
+  }
+  const auto graph = store.view().graph();
+  EXPECT_EQ(graph.componentCount(), 2);
+  EXPECT_EQ(graph.shortestRoute(graph.nodes().front(), graph.nodes().back()), std::nullopt);
+}
+
+}  // namespace
+}  // namespace prodomos::query
