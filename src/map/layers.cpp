@@ -37,6 +37,7 @@ std::unique_ptr<MapLayer> makeLayer(std::string_view typeId, const LayersConfig&
 
 std::vector<std::string_view> layerTypes() {
   std::vector<std::string_view> types;
+  types.reserve(kLayerTypes.size());
   for (const auto& type : kLayerTypes) types.push_back(type.typeId);
   return types;
 }
