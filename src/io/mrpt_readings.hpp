@@ -32,7 +32,7 @@ Conversion convertScan(const mrpt::obs::CObservation2DRangeScan& observation);
 Conversion convertRangeImage(const mrpt::obs::CObservation3DRangeScan& observation);
 Conversion convertStereo(const mrpt::obs::CObservationStereoImages& observation);
 Conversion convertVelodyne(const mrpt::obs::CObservationVelodyneScan& observation);
-Conversion convertPointCloud(const mrpt::obs::CObservation& cloud);
+Conversion convertPointCloud(const mrpt::obs::CObservation& observation);
 
 /// Names of the classes in the observation's pixel labels; empty where it has none.
 sensors::ClassTable classTable(const mrpt::obs::CObservation& observation);

@@ -60,9 +60,9 @@ std::string toJson(const sensors::ClassTable& classes) {
   return table.dump();
 }
 
-sensors::ClassTable classTableFrom(const std::string& text) {
+sensors::ClassTable classTableFrom(const std::string& json) {
   sensors::ClassTable classes;
-  const auto table = json::parse(text);
+  const auto table = nlohmann::json::parse(json);
   for (const auto& [id, name] : table.items()) classes[std::stoi(id)] = name;
   return classes;
 }
@@ -77,9 +77,9 @@ std::string toJson(const std::vector<PredictedArea>& areas) {
   return list.dump();
 }
 
-std::vector<PredictedArea> predictedAreasFrom(const std::string& text) {
+std::vector<PredictedArea> predictedAreasFrom(const std::string& json) {
   std::vector<PredictedArea> areas;
-  for (const auto& entry : json::parse(text)) {
+  for (const auto& entry : nlohmann::json::parse(json)) {
     PredictedArea area;
     area.threshold = real(entry.at("threshold"));
     for (const auto& point : entry.at("outline")) {

@@ -35,8 +35,7 @@ struct WithinPlace {
 template <typename IdType>
 std::vector<IdType> sortedEachOnce(std::vector<IdType> ids) {
   std::ranges::sort(ids);
-  const auto repeated = std::ranges::unique(ids);
-  ids.erase(repeated.begin(), repeated.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;
 }
 
