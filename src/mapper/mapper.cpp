@@ -40,7 +40,7 @@ class Mapper::Impl {
   void skip(const sensors::Skipped& skipped);
   void finish(const sensors::EndOfLog& end);
   ResumePoint resumePoint() const { return {report.read, waitingWhenInterrupted_}; }
-  void restore(std::vector<std::pair<std::int64_t, sensors::Reading>> waiting);
+  void restore(std::vector<std::pair<std::int64_t, sensors::Reading>>&& waiting);
   map::MapView view() const;
 
   Report report;
@@ -324,7 +324,7 @@ void Mapper::Impl::load(const map::Checkpoint& checkpoint) {
   running_.emplace(RunningSubMap::load(in, session_.id, config_.layers));
 }
 
-void Mapper::Impl::restore(std::vector<std::pair<std::int64_t, sensors::Reading>> waiting) {
+void Mapper::Impl::restore(std::vector<std::pair<std::int64_t, sensors::Reading>>&& waiting) {
   waitingWhenInterrupted_.clear();
   requireOpen();
   for (auto& [item, reading] : waiting) waiting_.push_back({item, std::move(reading)});
