@@ -150,6 +150,27 @@ TEST_F(Replay, RefusesToGoOnWithAnotherLog) {
   }
 }
 
+TEST_F(Replay, TakesNothingMoreOnceTheFileCannotBeWritten) {
+  auto store = map::MapStore::create(map("map"));
+  Mapper mapper(store, {}, liveInfo());
+  sqlite3* database = nullptr;
+  sqlite3_open(map("map").c_str(), &database);
+  test::rowsOf(database, "ALTER TABLE trajectory RENAME TO elsewhere");
+  test::MemorySource source(shortDrive());
+  EXPECT_THROW(replay(source, mapper), base::FileError);
+  EXPECT_THROW(mapper.process(shortDrive().front()), base::Error);
+  EXPECT_THROW(mapper.finish(), base::Error);
+  test::rowsOf(database, "ALTER TABLE elsewhere RENAME TO trajectory");
+  sqlite3_close(database);
+  EXPECT_TRUE(store.view().graph().nodes().empty()) << "all or nothing";
+  test::MemorySource again(shortDrive());
+  Mapper next(store, {}, liveInfo());
+  replay(again, next);
+  ASSERT_TRUE(run(map("undisturbed"), test::MemorySource(shortDrive())));
+  store.close();
+  EXPECT_EQ(test::tablesOf(map("map")), test::tablesOf(map("undisturbed")));
+}
+
 TEST_F(Replay, ReportsWhereALogIsDamaged) {
   std::vector<sensors::SourceItem> log;
   for (auto& reading : shortDrive()) log.emplace_back(reading);
