@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
+#include <array>
 #include <fstream>
 #include <iostream>
 
@@ -68,15 +69,37 @@ io::SourceOptions sourceOptions(const ReplayOptions& options, const mapper::Mapp
   return source;
 }
 
+constexpr std::array kMapParts = {"", "-wal", "-shm"};
+
 /// Nothing is lost: a map that is in the way stays beside the new one.
 void keepAside(const fs::path& map) {
   map::MapView::open(map);  // throws where it is another kind of file, which we do not touch
   const fs::path aside = map.string() + "~";
-  for (const char* part : {"", "-wal", "-shm"}) {
+  for (const char* part : kMapParts) {
     std::error_code none;
+    fs::remove(aside.string() + part, none);  // an older one's journal is not this one's
     fs::rename(map.string() + part, aside.string() + part, none);
   }
   std::cerr << "prodomos: " << map.string() << " was there already and is now " << aside.string() << '\n';
+}
+
+/// Makes the tables in a file beside it, so that whenever the run is killed, a map that is there can be opened and
+/// resumed.
+map::MapStore createStore(const fs::path& output) {
+  const std::string unfinished = output.string() + ".part";
+  const auto clear = [&] {
+    std::error_code none;
+    for (const char* part : kMapParts) fs::remove(unfinished + part, none);
+  };
+  clear();
+  try {
+    map::MapStore::create(unfinished).close();
+    fs::rename(unfinished, output);
+  } catch (...) {
+    clear();
+    throw;
+  }
+  return map::MapStore::openForWriting(output);
 }
 
 map::MapStore openStore(const ReplayOptions& options) {
@@ -89,7 +112,7 @@ map::MapStore openStore(const ReplayOptions& options) {
   } else if (exists) {
     keepAside(output);
   }
-  return map::MapStore::create(output);
+  return createStore(output);
 }
 
 /// A session goes on as it was begun: with its own configuration and its own log.
