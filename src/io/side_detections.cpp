@@ -8,7 +8,6 @@
 #include "io/text_fields.hpp"
 
 #include <algorithm>
-#include <utility>
 #include <cmath>
 #include <optional>
 #include <utility>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the prodomos authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <iostream>
-
 #include "prodomos/query/query.hpp"
+
+#include <iostream>
 
 int main(int, char** arguments) {
   const auto view = prodomos::map::MapView::open(arguments[1]);

@@ -3,11 +3,12 @@
 // Writes the log of the demo: a robot with laser and odometry tours four rooms on a corridor.
 //
 //   prodomos_demo_log OUT.rawlog
+#include "prodomos/io/rawlog_sink.hpp"
+
+#include "support/laser_world.hpp"
+
 #include <cstdio>
 #include <exception>
-
-#include "prodomos/io/rawlog_sink.hpp"
-#include "support/laser_world.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 2) {
