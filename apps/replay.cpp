@@ -117,7 +117,7 @@ map::MapStore openStore(const ReplayOptions& options) {
 
 /// A session goes on as it was begun: with its own configuration and its own log.
 mapper::MapperConfig configToResume(const ReplayOptions& options, const map::Session& session) {
-  const auto stored = base::readConfig<mapper::MapperConfig>({{}, session.config, {}});
+  auto stored = base::readConfig<mapper::MapperConfig>({{}, session.config, {}});
   const bool givesConfig = !options.config.file.empty() || !options.config.assignments.empty();
   if (givesConfig) {
     const auto given = base::readConfig<mapper::MapperConfig>(options.config);

@@ -31,10 +31,10 @@ struct RgbdFolder {
 inline constexpr const char* kFolderCamera = "camera";
 
 bool isTumFolder(const std::filesystem::path& folder);
-RgbdFolder readTumFolder(const std::filesystem::path& folder, const SourceOptions& options);
+RgbdFolder readTumFolder(const std::filesystem::path& path, const SourceOptions& options);
 
 bool isPlainFolder(const std::filesystem::path& folder);
-RgbdFolder readPlainFolder(const std::filesystem::path& folder, const SourceOptions& options);
+RgbdFolder readPlainFolder(const std::filesystem::path& path, const SourceOptions& options);
 
 std::unique_ptr<sensors::SensorSource> openRgbdFolder(RgbdFolder folder);
 

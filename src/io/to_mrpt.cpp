@@ -153,7 +153,7 @@ mrpt::poses::CPose2D planarPose(const sensors::Odometry& odometry) {
 }
 
 mrpt::obs::CObservation::Ptr toMrpt(const sensors::Reading& reading, const sensors::ClassTable& classes) {
-  const auto observation = std::visit(
+  auto observation = std::visit(
       [&](const auto& data) -> CObservation::Ptr {
         if constexpr (requires { convert(data); }) {
           return convert(data);
