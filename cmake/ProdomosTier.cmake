@@ -39,6 +39,8 @@ function(prodomos_warnings target)
 endfunction()
 
 if(PRODOMOS_SANITIZE)
-  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  # MRPT's classes ask for 32 bytes of alignment, and its library does not give them.
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize=alignment -fno-sanitize-recover=all
+                      -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
 endif()
