@@ -7,6 +7,8 @@ LOG ?=
 PREFIX ?= /usr/local
 JOBS ?= $(shell nproc)
 PRODOMOS := $(BUILD)/apps/prodomos
+PRODOMOS_DATASETS ?= ../shared/datasets
+BENCH_LOGS ?= $(foreach log,intel driving_in_office fr079 ual_2014,$(PRODOMOS_DATASETS)/laser/$(log).rawlog)
 
 .PHONY: help demo test build deps sanitize bench format tidy tiers install clean
 
@@ -48,7 +50,10 @@ bench: ## the benchmarks of tests/bench
 	@.ci/deps build test
 	cmake -S . -B build-bench -G Ninja -DCMAKE_BUILD_TYPE=Release -DPRODOMOS_TESTS=OFF -DPRODOMOS_BENCHMARKS=ON
 	cmake --build build-bench -j $(JOBS)
-	@for bench in build-bench/tests/bench/bench_*; do [ -x "$$bench" ] && [ -f "$$bench" ] && "$$bench"; done
+	@for log in $(BENCH_LOGS); do \
+	  if [ -e "$$log" ]; then build-bench/tests/bench/bench_grid_insertion "$$log"; else echo "bench: $$log is absent, skipped"; fi; \
+	done
+	@if [ -e "$(firstword $(BENCH_LOGS))" ]; then tests/bench/replay_speed build-bench/apps/prodomos "$(firstword $(BENCH_LOGS))"; fi
 
 install: build ## install to PREFIX
 	cmake --install $(BUILD) --prefix $(PREFIX)
