@@ -215,13 +215,6 @@ Json totalsOf(const map::MapView& view, double area) {
           {"area", rounded(area)}};
 }
 
-template <typename Things, typename ToJson>
-Json listOf(const Things& things, ToJson toJson) {
-  Json list = Json::array();
-  for (const auto& thing : things) list.push_back(toJson(thing));
-  return list;
-}
-
 }  // namespace
 
 Json htmlData(const map::MapView& view, const HtmlOptions& options) {

@@ -154,13 +154,6 @@ Json trajectoryRow(const map::TrajectoryPoint& point) {
   return row;
 }
 
-template <typename Items, typename Convert>
-Json listOf(const Items& items, Convert convert) {
-  Json list = Json::array();
-  for (const auto& item : items) list.push_back(convert(item));
-  return list;
-}
-
 }  // namespace
 
 void writeJson(const map::MapView& view, const Path& path) {

@@ -27,6 +27,14 @@ Json optionalJson(const std::optional<base::Id<Letter>>& id) {
   return id ? Json(toString(*id)) : Json(nullptr);
 }
 
+/// toJson(thing) of each.
+template <typename Things, typename ToJson>
+Json listOf(const Things& things, ToJson toJson) {
+  Json list = Json::array();
+  for (const auto& thing : things) list.push_back(toJson(thing));
+  return list;
+}
+
 /// One line an element of the outer arrays, so that files can be read, searched and compared line by line.
 std::string dumpByLines(const Json& object);
 
