@@ -47,7 +47,9 @@ sensors::Image<map::Rgba> halved(const mrpt::img::CImage& image, int width, int 
 void renderScreenshot(const map::MapView& view, const std::filesystem::path& png, int width, int height) {
   const auto scene = makeScene(view, Pen{.pixels = 2.0});
   setCamera(*scene.objects, overview(scene.extent_in_map, static_cast<double>(width) / height));
-  const auto image = render(*scene.objects, static_cast<unsigned>(2 * width), static_cast<unsigned>(2 * height));
+  // OpenGL pads rows to four bytes, which MRPT's buffer has no room for: whole groups of four pixels need no padding.
+  const auto paddedWidth = (static_cast<unsigned>(2 * width) + 3U) / 4U * 4U;
+  const auto image = render(*scene.objects, paddedWidth, static_cast<unsigned>(2 * height));
   writeFile(png, toPng(halved(image, width, height)));
 }
 
