@@ -13,6 +13,7 @@ void addInfo(CLI::App& program);
 void addQuery(CLI::App& program);
 void addExport(CLI::App& program);
 void addView(CLI::App& program);
+void addEvaluate(CLI::App& program);
 void addConfig(CLI::App& program);
 
 }  // namespace prodomos::apps
