@@ -13,7 +13,7 @@ namespace prodomos::map {
 using Beam = OccupancyGrid::Beam;
 
 void appendLevelBeams(const sensors::LaserScan& scan, const geometry::Pose3& T_grid_sensor, double noReturn,
-                      std::vector<Beam>& beams) {
+                      const sensors::Mask* movers, std::vector<Beam>& beams) {
   const Eigen::Vector2d origin = T_grid_sensor.translation().head<2>();
   const Eigen::Matrix2d rotation = T_grid_sensor.linear().topLeftCorner<2, 2>();
   noReturn = std::min(scan.maxRange, noReturn);
@@ -21,8 +21,9 @@ void appendLevelBeams(const sensors::LaserScan& scan, const geometry::Pose3& T_g
   Eigen::Vector2d direction(std::cos(scan.firstAngle), std::sin(scan.firstAngle));
   const Eigen::Vector2d step(std::cos(scan.angleStep), std::sin(scan.angleStep));
   beams.reserve(beams.size() + scan.ranges.size());
-  for (const float range : scan.ranges) {
-    if (range >= 0.0F) {  // neither kInvalid nor not a number
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+    const float range = scan.ranges[i];
+    if (range >= 0.0F && !isMover(movers, i)) {  // neither kInvalid nor not a number
       const bool hit = range < sensors::LaserScan::kNoReturn;
       beams.push_back({origin + rotation * (direction * (hit ? static_cast<double>(range) : noReturn)), hit});
     }
@@ -76,10 +77,8 @@ class DirectionBins {
   std::array<Bin, kCount> bins_{};
 };
 
-}  // namespace
-
-void appendLevelBeams(const sensors::RgbdFrame& frame, const geometry::Pose3& T_grid_camera, const HeightBand& band,
-                      const sensors::Mask* movers, std::vector<Beam>& beams) {
+void appendBeams(const sensors::RgbdFrame& frame, const geometry::Pose3& T_grid_camera, const HeightBand& band,
+                 const sensors::Mask* movers, std::vector<Beam>& beams) {
   DirectionBins bins(T_grid_camera.translation(), band);
   constexpr int kStep = 2;  // pixels; a bin is wider than two of them
   forEachDepthPoint(frame, kStep, movers, [&](const Eigen::Vector3d& point_in_camera, int, int) {
@@ -88,8 +87,8 @@ void appendLevelBeams(const sensors::RgbdFrame& frame, const geometry::Pose3& T_
   bins.appendTo(beams);
 }
 
-void appendLevelBeams(const sensors::PointCloud& cloud, const geometry::Pose3& T_grid_sensor, const HeightBand& band,
-                      const sensors::Mask* movers, std::vector<Beam>& beams) {
+void appendBeams(const sensors::PointCloud& cloud, const geometry::Pose3& T_grid_sensor, const HeightBand& band,
+                 const sensors::Mask* movers, std::vector<Beam>& beams) {
   DirectionBins bins(T_grid_sensor.translation(), band);
   for (std::size_t i = 0; i < cloud.points_in_sensor.size(); ++i) {
     if (isMover(movers, i)) continue;
@@ -97,6 +96,27 @@ void appendLevelBeams(const sensors::PointCloud& cloud, const geometry::Pose3& T
     if (point_in_grid.allFinite()) bins.add(point_in_grid);
   }
   bins.appendTo(beams);
+}
+
+}  // namespace
+
+std::optional<Eigen::Vector2d> appendLevelBeams(const PlacedReading& placed, const HeightBand& band,
+                                                std::vector<Beam>& beams, double noReturn) {
+  geometry::Pose3 T_grid_sensor = placed.T_submap_body;
+  if (const auto* scan = std::get_if<sensors::LaserScan>(&placed.reading.data)) {
+    T_grid_sensor = T_grid_sensor * scan->T_body_sensor;
+    appendLevelBeams(*scan, T_grid_sensor, noReturn, placed.movers, beams);
+  } else if (const auto* frame = std::get_if<sensors::RgbdFrame>(&placed.reading.data);
+             frame && !frame->depth.empty()) {
+    T_grid_sensor = T_grid_sensor * frame->T_body_camera;
+    appendBeams(*frame, T_grid_sensor, band, placed.movers, beams);
+  } else if (const auto* cloud = std::get_if<sensors::PointCloud>(&placed.reading.data)) {
+    T_grid_sensor = T_grid_sensor * cloud->T_body_sensor;
+    appendBeams(*cloud, T_grid_sensor, band, placed.movers, beams);
+  } else {
+    return std::nullopt;
+  }
+  return T_grid_sensor.translation().head<2>();
 }
 
 }  // namespace prodomos::map

@@ -4,21 +4,23 @@
 
 #include "prodomos/map/occupancy_grid.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace prodomos::map {
 
-/// A scan's beams as seen from above; those that say nothing are left out, those without a return have this length.
+/// A reading's beams as seen from above, and where they begin; none for readings that range nothing. What ends at a
+/// mover is left out.
+///
+/// A scan's beams are its own; those that say nothing are left out, those without a return have the length `noReturn`,
+/// or the scanner's range. Of a depth image or a point cloud there is one beam per direction in which something was
+/// seen: to the nearest point within the height band over the floor (z = 0 of the sub-map), else without a hit to the
+/// farthest point below the band's top.
+std::optional<Eigen::Vector2d> appendLevelBeams(const PlacedReading& placed, const HeightBand& band,
+                                                std::vector<OccupancyGrid::Beam>& beams, double noReturn = 0.0);
+
+/// Those of a scan; its mask of movers is a row with a pixel a beam.
 void appendLevelBeams(const sensors::LaserScan& scan, const geometry::Pose3& T_grid_sensor, double noReturn,
-                      std::vector<OccupancyGrid::Beam>& beams);
-
-/// One beam per direction in which a depth image saw something: to the nearest point within the height band over the
-/// floor (z = 0 of the sub-map), else without a hit to the farthest point below the band's top.
-void appendLevelBeams(const sensors::RgbdFrame& frame, const geometry::Pose3& T_grid_camera, const HeightBand& band,
-                      const sensors::Mask* movers, std::vector<OccupancyGrid::Beam>& beams);
-
-/// The same of a point cloud.
-void appendLevelBeams(const sensors::PointCloud& cloud, const geometry::Pose3& T_grid_sensor, const HeightBand& band,
                       const sensors::Mask* movers, std::vector<OccupancyGrid::Beam>& beams);
 
 }  // namespace prodomos::map

@@ -67,6 +67,40 @@ class Misser {
   Cell low_;
 };
 
+/// Throws base::Error where no grid has such numbers: a byte would overflow, or cells could not be told apart.
+void requireSound(const OccupancyGridConfig& config) {
+  const auto require = [](const char* name, double value, double least, double most) {
+    if (value >= least && value <= most) return;
+    throw base::Error("expected " + std::string(name) + " from " + std::to_string(least) + " to " +
+                      std::to_string(most) + ", found " + std::to_string(value));
+  };
+  constexpr double kFar = 1e6;  // metres
+  require("resolution", config.resolution, 1e-4, 1e3);
+  require("max_range", config.maxRange, 1e-3, kFar);
+  require("no_return", config.noReturn, 0.0, kFar);
+  require("hit", config.hit, 0.5, 0.99);
+  require("miss", config.miss, 0.08, 0.5);
+  require("clamp_low", config.clampLow, 0.05, 0.5);
+  require("clamp_high", config.clampHigh, 0.5, 0.99);
+  require("band_least", config.heightBand.least, -kFar, kFar);
+  require("band_most", config.heightBand.most, -kFar, kFar);
+}
+
+/// Throws base::Error where the box does not have so many cells, or lies where nobody can get.
+void requireCells(const geometry::CellBox& box, std::size_t cells) {
+  constexpr int kFarthest = 1'000'000'000;
+  for (const int corner : {box.first.x, box.first.y, box.last.x, box.last.y}) {
+    if (corner < -kFarthest || corner > kFarthest) {
+      throw base::Error("expected a corner within a billion cells, found " + std::to_string(corner));
+    }
+  }
+  const auto expected =
+      box.empty() ? 0 : (std::int64_t{box.last.x} - box.first.x + 1) * (std::int64_t{box.last.y} - box.first.y + 1);
+  if (expected != static_cast<std::int64_t>(cells)) {
+    throw base::Error("expected " + std::to_string(expected) + " cells, found " + std::to_string(cells) + " bytes");
+  }
+}
+
 constexpr Rgba kFreeColor{250, 250, 247, 255};
 constexpr Rgba kOccupiedColor{38, 50, 66, 255};
 constexpr Rgba kUnknownColor{0, 0, 0, 0};
@@ -159,7 +193,7 @@ void OccupancyGrid::insert(const Eigen::Vector2d& origin, std::span<const Beam> 
 
 void OccupancyGrid::insert(const sensors::LaserScan& scan, const geometry::Pose3& T_grid_sensor) {
   beams_.clear();
-  appendLevelBeams(scan, T_grid_sensor, config_.noReturn, beams_);
+  appendLevelBeams(scan, T_grid_sensor, config_.noReturn, nullptr, beams_);
   insert(T_grid_sensor.translation().head<2>(), beams_);
 }
 
@@ -171,11 +205,12 @@ bool OccupancyGrid::integrate(const PlacedReading& placed) {
 }
 
 double OccupancyGrid::overlap(const PlacedReading& placed) {
-  if (!levelBeams(placed)) return 1.0;
+  const auto origin = levelBeams(placed);
+  if (!origin) return 1.0;
   int ends = 0;
   int known = 0;
   for (const auto& beam : beams_) {
-    if (!beam.hit) continue;
+    if (!beam.hit || (beam.end - *origin).squaredNorm() > config_.maxRange * config_.maxRange) continue;
     ++ends;
     if (state(cellAt(beam.end)) != CellState::kUnknown) ++known;
   }
@@ -185,21 +220,7 @@ double OccupancyGrid::overlap(const PlacedReading& placed) {
 /// Fills beams_ and returns where they begin; none for readings that range nothing.
 std::optional<Eigen::Vector2d> OccupancyGrid::levelBeams(const PlacedReading& placed) {
   beams_.clear();
-  geometry::Pose3 T_grid_sensor = placed.T_submap_body;
-  if (const auto* scan = std::get_if<sensors::LaserScan>(&placed.reading.data)) {
-    T_grid_sensor = T_grid_sensor * scan->T_body_sensor;
-    appendLevelBeams(*scan, T_grid_sensor, config_.noReturn, beams_);
-  } else if (const auto* frame = std::get_if<sensors::RgbdFrame>(&placed.reading.data);
-             frame && !frame->depth.empty()) {
-    T_grid_sensor = T_grid_sensor * frame->T_body_camera;
-    appendLevelBeams(*frame, T_grid_sensor, config_.heightBand, placed.movers, beams_);
-  } else if (const auto* cloud = std::get_if<sensors::PointCloud>(&placed.reading.data)) {
-    T_grid_sensor = T_grid_sensor * cloud->T_body_sensor;
-    appendLevelBeams(*cloud, T_grid_sensor, config_.heightBand, placed.movers, beams_);
-  } else {
-    return std::nullopt;
-  }
-  return T_grid_sensor.translation().head<2>();
+  return appendLevelBeams(placed, config_.heightBand, beams_, config_.noReturn);
 }
 
 void OccupancyGrid::merge(const MapLayer& other, const geometry::Pose3& T_this_other) {
@@ -252,14 +273,15 @@ void OccupancyGrid::load(base::ByteReader& in, int version) {
   in >> config.resolution >> config.maxRange >> config.noReturn >> config.hit >> config.miss >> config.clampLow >>
       config.clampHigh >> config.heightBand.least >> config.heightBand.most >> box.first.x >> box.first.y >>
       box.last.x >> box.last.y;
-  const auto cells = box.empty() ? 0 : static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height());
-  if (cells != in.left() / sizeof(Cell)) {
-    throw base::Error("expected " + std::to_string(cells) + " cells, found " + std::to_string(in.left()) + " bytes");
-  }
+  requireSound(config);
+  const std::size_t cells = in.left() / sizeof(Cell);
+  requireCells(box, cells);
   *this = OccupancyGrid(config);
   box_ = box;
   cells_.assign(cells + kLanes, kUnknownCell);
   in.take(cells_.data(), cells * sizeof(Cell));
+  const auto isSound = [&](Cell cell) { return cell == kUnknownCell || (cell >= low_ && cell <= high_); };
+  if (!std::ranges::all_of(cells_, isSound)) throw base::Error("expected cells within their clamps, found others");
 }
 
 Drawing OccupancyGrid::draw() const {

@@ -257,6 +257,28 @@ TEST(OccupancyGrid, LearnsNothingFromInvalidBeams) {
   EXPECT_TRUE(grid.knownBox().empty());
 }
 
+TEST(OccupancyGrid, LeavesOutTheBeamsOfMovers) {
+  sensors::LaserScan scan;
+  scan.angleStep = kPi / 2;
+  scan.maxRange = 20.0;
+  scan.ranges = {3.0F, 3.0F, 3.0F};  // ahead, left, behind
+  sensors::Mask movers(3, 1);
+  movers(0, 0) = 1;
+  const auto reading = readingOf(scan);
+  OccupancyGrid grid(configOf(1.0));
+  EXPECT_TRUE(
+      grid.integrate({.reading = reading, .T_submap_body = geometry::toPose3({0.5, 0.5, 0}), .movers = &movers}));
+  EXPECT_EQ(grid.state({3, 0}), CellState::kUnknown);
+  EXPECT_EQ(grid.state({0, 3}), CellState::kOccupied);
+  EXPECT_EQ(grid.state({-3, 0}), CellState::kOccupied);
+  EXPECT_EQ(grid.overlap({.reading = reading, .T_submap_body = geometry::toPose3({0.5, 0.5, 0}), .movers = &movers}),
+            1.0);
+
+  const sensors::Mask nothingMoves;
+  grid.integrate({.reading = reading, .T_submap_body = geometry::toPose3({0.5, 0.5, 0}), .movers = &nothingMoves});
+  EXPECT_EQ(grid.state({3, 0}), CellState::kOccupied);
+}
+
 TEST(OccupancyGrid, TakesNothingFromReadingsThatRangeNothing) {
   OccupancyGrid grid;
   for (const auto& reading :
@@ -304,6 +326,18 @@ TEST(OccupancyGrid, OverlapIsTheShareOfEndPointsInKnownCells) {
   scan.angleStep = kPi;
   reading = readingOf(scan);
   EXPECT_EQ(grid.overlap({.reading = reading, .T_submap_body = geometry::toPose3({1.5, 0.5, 0})}), 1.0);
+}
+
+TEST(OccupancyGrid, OverlapDoesNotCountHitsThatAreTooFarToBeInserted) {
+  OccupancyGrid grid(configOf(1.0, 4.0));
+  sensors::LaserScan scan;
+  scan.angleStep = kPi;
+  scan.maxRange = 50.0;
+  scan.ranges = {2.0F, 30.0F};
+  const auto reading = readingOf(scan);
+  const auto T_submap_body = geometry::toPose3({0.5, 0.5, 0});
+  grid.integrate({.reading = reading, .T_submap_body = T_submap_body});
+  EXPECT_EQ(grid.overlap({.reading = reading, .T_submap_body = T_submap_body}), 1.0);
 }
 
 // --- merging
@@ -440,6 +474,38 @@ TEST(OccupancyGrid, RefusesBytesThatAreDamaged) {
   EXPECT_THROW(grid.load(tooLong, 1), base::Error);
   base::ByteReader unknownVersion(bytes);
   EXPECT_THROW(grid.load(unknownVersion, 2), base::Error);
+}
+
+TEST(OccupancyGrid, RefusesNumbersThatNoGridHas) {
+  base::ByteWriter out;
+  gridFromText({"#..", "..#"}, 0.5).save(out);
+  const auto good = out.take();
+  const auto loadWith = [&](std::size_t at, auto number) {
+    auto bytes = good;
+    std::memcpy(bytes.data() + at, &number, sizeof number);
+    OccupancyGrid grid;
+    base::ByteReader in(bytes);
+    grid.load(in, 1);
+  };
+  EXPECT_NO_THROW(loadWith(0, 0.25));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double resolution : {0.0, -0.05, nan, infinity}) EXPECT_THROW(loadWith(0, resolution), base::Error);
+  for (std::size_t key = 1; key < 9; ++key) {
+    EXPECT_THROW(loadWith(8 * key, nan), base::Error) << key;
+    EXPECT_THROW(loadWith(8 * key, infinity), base::Error) << key;
+  }
+  for (std::size_t probability = 3; probability < 7; ++probability) {
+    for (const double nonsense : {-0.1, 0.0, 1.0, 7.0}) {
+      EXPECT_THROW(loadWith(8 * probability, nonsense), base::Error) << probability << " is " << nonsense;
+    }
+  }
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    for (const int nonsense : {std::numeric_limits<int>::min(), std::numeric_limits<int>::max(), 1'000'000, 5}) {
+      EXPECT_THROW(loadWith(72 + 4 * corner, nonsense), base::Error) << corner << " is " << nonsense;
+    }
+  }
+  EXPECT_THROW(loadWith(88, std::int8_t{-127}), base::Error) << "a miss would make it the most occupied of all";
 }
 
 // --- drawing
