@@ -131,6 +131,31 @@ double PoseProblem<Pose>::error(const Measurement& measurement, const std::vecto
 }
 
 template <typename Pose>
+double PoseProblem<Pose>::costOf(std::size_t constraint, const BlockMatrix<kDimension>& inverse, bool isCounted) const {
+  const auto& measurement = measurements_[constraint];
+  LinearizedError<kDimension> linear;
+  Space::linearize(states_[measurement.from], states_[measurement.to], measurement.measured, linear);
+  const int from = unknownOf_[measurement.from];
+  const int to = unknownOf_[measurement.to];
+  // Covariance of what the poses say of the error, the constraint's own say included where it counts.
+  Matrix known = Matrix::Zero();
+  if (from >= 0) known += linear.byFrom * inverse.diagonal[static_cast<std::size_t>(from)] * linear.byFrom.transpose();
+  if (to >= 0) known += linear.byTo * inverse.diagonal[static_cast<std::size_t>(to)] * linear.byTo.transpose();
+  if (measurement.place >= 0) {
+    const auto& block = inverse.offDiagonal[static_cast<std::size_t>(measurement.place)];
+    const Matrix fromTo = measurement.isTransposed ? Matrix(block.transpose()) : block;
+    const Matrix cross = linear.byFrom * fromTo * linear.byTo.transpose();
+    known += cross + cross.transpose();
+  }
+  const Matrix& information = measurement.information;
+  const typename Space::Motion pull = information * linear.error;
+  const Matrix ofItself = information * known * information;
+  const Eigen::LLT<Matrix> redundancy(isCounted ? Matrix(information - ofItself) : Matrix(information + ofItself));
+  // What nothing else is known of cannot be contradicted.
+  return redundancy.info() == Eigen::Success ? pull.dot(redundancy.solve(pull)) : 0.0;
+}
+
+template <typename Pose>
 double PoseProblem<Pose>::linearize(std::span<const double> weights) {
   for (auto& block : equations_.diagonal) block.setZero();
   for (auto& block : equations_.offDiagonal) block.setZero();

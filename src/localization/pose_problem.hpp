@@ -37,6 +37,10 @@ class PoseProblem {
   /// e^T information e of each constraint.
   std::vector<double> errors(const std::vector<State>& states) const;
 
+  /// By how much chi² would be less without a constraint that counts in full, or more with one that does not count;
+  /// `inverse` is that of the equations where the states are.
+  double costOf(std::size_t constraint, const BlockMatrix<kDimension>& inverse, bool isCounted) const;
+
   /// The normal equations of all constraints where the states are, `matrix` * motion = -gradient. Returns chi².
   double linearize(std::span<const double> weights);
   const BlockMatrix<kDimension>& matrix() const { return equations_; }

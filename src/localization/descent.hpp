@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "localization/block_cholesky.hpp"
+#include "localization/pose_problem.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace prodomos::localization {
+
+/// Gauss and Newton's steps, with Levenberg and Marquardt's damping only where one does not lead down.
+template <typename Pose>
+class Descent {
+ public:
+  Descent(PoseProblem<Pose>& problem, const OptimizerConfig& config)
+      : problem_(problem), config_(config), cholesky_(problem.unknowns(), problem.places()) {}
+
+  /// Moves the problem's states for so many steps, or until chi² hardly falls any more: true.
+  bool run(std::span<const double> weights, int steps) {
+    if (problem_.unknowns() == 0) return true;
+    double chi2 = problem_.linearize(weights);
+    while (steps-- > 0) {
+      ++iterations_;
+      if (!cholesky_.factorize(problem_.matrix(), damping_)) {
+        if (!damp()) return true;
+        continue;
+      }
+      Eigen::VectorXd motion = -problem_.gradient();
+      cholesky_.solve(motion);
+      const bool isLast = -problem_.gradient().dot(motion) <= config_.tolerance * chi2;
+      auto states = problem_.moved(motion);
+      if (problem_.chi2(states, weights) < chi2) {
+        damping_ = damping_ > kLeastDamping ? 0.1 * damping_ : 0.0;
+        problem_.setStates(std::move(states));
+        if (isLast) return true;
+        chi2 = problem_.linearize(weights);
+      } else if (isLast || !damp()) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  int iterations() const { return iterations_; }
+  /// Of the last step's equations.
+  const BlockCholesky<kDegreesOfFreedom<Pose>>& cholesky() const { return cholesky_; }
+  /// Of the equations where the states are now. False where they leave something free.
+  bool factorize(std::span<const double> weights) {
+    problem_.linearize(weights);
+    return cholesky_.factorize(problem_.matrix());
+  }
+
+ private:
+  static constexpr double kLeastDamping = 1e-6;
+  static constexpr double kMostDamping = 1e12;
+
+  /// False where no step is short enough.
+  bool damp() {
+    damping_ = std::max(kLeastDamping, 10.0 * damping_);
+    if (damping_ <= kMostDamping) return true;
+    damping_ = 0.0;
+    return false;
+  }
+
+  PoseProblem<Pose>& problem_;
+  const OptimizerConfig& config_;
+  BlockCholesky<kDegreesOfFreedom<Pose>> cholesky_;
+  double damping_ = 0.0;
+  int iterations_ = 0;
+};
+
+}  // namespace prodomos::localization
