@@ -14,6 +14,7 @@ void addQuery(CLI::App& program);
 void addExport(CLI::App& program);
 void addView(CLI::App& program);
 void addEvaluate(CLI::App& program);
+void addOptimize(CLI::App& program);
 void addConfig(CLI::App& program);
 
 }  // namespace prodomos::apps

@@ -25,7 +25,7 @@ int run(int argc, char** argv) {
   program.footer("prodomos COMMAND --help has options and examples of each command.");
   for (const auto add :
        {prodomos::apps::addReplay, prodomos::apps::addInfo, prodomos::apps::addQuery, prodomos::apps::addExport,
-        prodomos::apps::addView, prodomos::apps::addEvaluate, prodomos::apps::addConfig}) {
+        prodomos::apps::addView, prodomos::apps::addEvaluate, prodomos::apps::addOptimize, prodomos::apps::addConfig}) {
     add(program);
   }
   try {

@@ -20,12 +20,11 @@ std::string poseColumns(const geometry::Pose3& pose) {
   return columns;
 }
 
-/// Ours speaks of deviations in the axes of `from`; g2o's of deviations of the measured pose in its own, those of `to`.
-map::Matrix6 informationInTo(const map::Edge& edge) {
-  map::Matrix6 rotations = map::Matrix6::Zero();
-  rotations.topLeftCorner<3, 3>() = edge.T_from_to.linear();
-  rotations.bottomRightCorner<3, 3>() = edge.T_from_to.linear();
-  return rotations.transpose() * edge.information * rotations;
+/// Both are of deviations of the measured pose in its own axes; g2o's rotation is the quaternion's vector part, half of
+/// our angle.
+map::Matrix6 informationOfG2o(const map::Edge& edge) {
+  const auto ourAngle = (Eigen::Matrix<double, 6, 1>() << 1.0, 1.0, 1.0, 2.0, 2.0, 2.0).finished();
+  return ourAngle.asDiagonal() * edge.information * ourAngle.asDiagonal();
 }
 
 }  // namespace
@@ -38,7 +37,7 @@ void writeG2o(const map::MapView& view, const Path& path) {
   for (const auto& edge : observedEdges(view)) {
     text += "EDGE_SE3:QUAT " + std::to_string(edge.from.value) + ' ' + std::to_string(edge.to.value) +
             poseColumns(edge.T_from_to);
-    const map::Matrix6 information = informationInTo(edge);
+    const map::Matrix6 information = informationOfG2o(edge);
     for (int row = 0; row < 6; ++row) {
       for (int column = row; column < 6; ++column) text += ' ' + fixed(information(row, column), kDecimals);
     }
