@@ -60,13 +60,14 @@ struct Surface {
 };
 
 std::vector<Surface> surfaces(std::span<const PosedDepth> views) {
-  constexpr int kStep = 2;  // cells
+  constexpr int kStep = 2;           // cells
+  constexpr float kFurthest = 4.0F;  // metres; depths beyond are too long, and lift the floor
   std::vector<Surface> result;
   for (const auto& view : views) {
     for (int y = 0; y < view.depth->height(); y += kStep) {
       for (int x = 0; x < view.depth->width(); x += kStep) {
         const auto& cell = view.depth->at(x, y);
-        if (cell.normalZ == 0.0F) continue;
+        if (cell.normalZ == 0.0F || cell.depth > kFurthest) continue;
         const Eigen::Vector3d point = pointOf(cell);
         result.push_back(
             {view.T_world_camera * point, view.T_world_camera.linear() * normalOf(cell), tolerance(point)});

@@ -174,6 +174,18 @@ void addFloor(const FloorSeen& floor, const Pose3& T_world_camera, NormalEquatio
 
 }  // namespace
 
+double Alignment::quality() const {
+  constexpr double kManyPoints = 100.0;
+  return std::min(1.0, pointInliers / kManyPoints) + depthInliers;
+}
+
+bool Alignment::isConvincing() const {
+  constexpr int kEnoughDepths = 400;
+  if (depthCount < kEnoughDepths) return pointInliers >= 30;
+  return (pointInliers >= 60 && depthInliers >= 0.5) || (pointInliers >= 20 && depthInliers >= 0.7) ||
+         depthInliers >= 0.85;
+}
+
 Pose3 smallMotion(const Vector6& motion) {
   Pose3 T = Pose3::Identity();
   T.translation() = motion.head<3>();
@@ -182,8 +194,8 @@ Pose3 smallMotion(const Vector6& motion) {
   return T;
 }
 
-std::optional<Pose3> poseFromMatches(const View& reference, const View& current, std::span<const Match> matches,
-                                     base::Random& random) {
+std::optional<MatchedPose> poseFromMatches(const View& reference, const View& current, std::span<const Match> matches,
+                                           base::Random& random) {
   std::vector<Match> both;  // with depth in both views: what poses are made of
   std::vector<Match> all;
   for (const auto& match : matches) {
@@ -234,7 +246,7 @@ std::optional<Pose3> poseFromMatches(const View& reference, const View& current,
     agree += cost(reference.points[match.reference], current.points[match.current], best, focal) < 1.0 ? 1 : 0;
   }
   if (agree < kLeastMatches) return std::nullopt;
-  return best.inverse();
+  return MatchedPose{best.inverse(), agree};
 }
 
 Alignment align(const View& current, std::span<const Reference> references, const Pose3& start, const Belief& belief,

@@ -24,10 +24,15 @@ struct View {
   DepthGrid depth;
 };
 
+struct MatchedPose {
+  geometry::Pose3 T_reference_current = geometry::Pose3::Identity();
+  int inliers = 0;
+};
+
 /// The pose from matches alone, three at a time (RANSAC); none where fewer than twelve agree. Chance is drawn from
 /// `random` alone.
-std::optional<geometry::Pose3> poseFromMatches(const View& reference, const View& current,
-                                               std::span<const Match> matches, base::Random& random);
+std::optional<MatchedPose> poseFromMatches(const View& reference, const View& current, std::span<const Match> matches,
+                                           base::Random& random);
 
 /// A view whose pose is known, and what of it was found again.
 struct Reference {
@@ -55,6 +60,11 @@ struct Alignment {
   int pointInliers = 0;                             ///< matches that agree
   double depthInliers = 0.0;                        ///< share of depths that fall onto known surfaces and agree
   int depthCount = 0;                               ///< depths that fall onto known surfaces
+
+  /// For comparing two poses of one frame.
+  double quality() const;
+  /// Whether images can agree so well by chance.
+  bool isConvincing() const;
 };
 
 /// The pose that agrees best with all references at once: reprojection and depth of the matches, distances of the

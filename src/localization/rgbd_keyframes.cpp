@@ -19,7 +19,10 @@ std::vector<std::pair<std::size_t, double>> KeyFrames::byOverlap(const View& vie
                                                                  const geometry::Pose3& T_world_camera) const {
   std::vector<std::pair<std::size_t, double>> shares;
   for (std::size_t i = 0; i < frames_.size(); ++i) {
-    shares.emplace_back(i, overlap(view, frames_[i].view, frames_[i].T_world_camera.inverse() * T_world_camera));
+    const geometry::Pose3 T_key_camera = frames_[i].T_world_camera.inverse() * T_world_camera;
+    const double falls = overlap(view, frames_[i].view, T_key_camera);
+    // A camera that walks ahead stays within what it saw from afar: both must see the other's surfaces.
+    shares.emplace_back(i, falls > 0.0 ? std::min(falls, overlap(frames_[i].view, view, T_key_camera.inverse())) : 0.0);
   }
   std::ranges::stable_sort(shares, [](const auto& a, const auto& b) { return a.second > b.second; });
   return shares;

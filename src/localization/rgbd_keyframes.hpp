@@ -30,7 +30,7 @@ class KeyFrames {
   /// Moves all of them: the world has become another.
   void transform(const geometry::Pose3& T_new_old);
 
-  /// Indices and shares of the view's depths that fall onto what each has seen, the greatest share first.
+  /// Indices, and how much each has in common with the view (0 … 1, the smaller of both shares), the most first.
   std::vector<std::pair<std::size_t, double>> byOverlap(const View& view, const geometry::Pose3& T_world_camera) const;
   /// All indices: `first`, then those most likely to show what the view shows.
   std::vector<std::size_t> nearestFirst(const View& view, const geometry::Pose3& T_world_camera,

@@ -91,17 +91,16 @@ class RgbdOdometry::Implementation {
  private:
   struct Found {
     Alignment alignment;
-    std::size_t best = 0;      ///< index of the key frame with most overlap
-    double bestOverlap = 0.0;  ///< 0 … 1
-    std::vector<rgbd::Reference> references;
-    std::vector<std::size_t> indices;
+    std::size_t best = 0;  ///< index of the key frame that has most in common with the view
+    double overlap = 0.0;  ///< how much, 0 … 1
   };
 
   View look(const sensors::RgbdFrame& frame, const sensors::Mask* movers) const;
   rgbd::Belief predict(base::Time time, const Pose3& T_body_camera, const std::optional<Pose3>& T_last_body) const;
   Estimate begin(base::Time time, View view, const Pose3& T_body_camera);
-  std::optional<Pose3> guess(const View& view, const rgbd::Belief& belief);
-  std::optional<Found> find(const View& view, const rgbd::Belief& belief);
+  std::optional<Pose3> guess(const View& view, const rgbd::Belief& belief) const;
+  Found alignNear(const View& view, const Pose3& start, double radius, const rgbd::Belief& belief) const;
+  std::optional<Found> find(const View& view, const rgbd::Belief& belief) const;
   Estimate lost(base::Time time, const rgbd::Belief& belief, const Pose3& T_body_camera);
   std::optional<Pose3> level();
 
@@ -202,55 +201,66 @@ std::optional<Pose3> RgbdOdometry::Implementation::level() {
 }
 
 /// From key points alone, however far from what was expected.
-std::optional<Pose3> RgbdOdometry::Implementation::guess(const View& view, const rgbd::Belief& belief) {
-  constexpr std::size_t kTried = 3;
+std::optional<Pose3> RgbdOdometry::Implementation::guess(const View& view, const rgbd::Belief& belief) const {
+  constexpr std::size_t kTried = 4;
   constexpr std::size_t kTriedWhenLost = 12;
+  constexpr int kBeyondDoubt = 80;
   const std::size_t tried = std::min(keyFrames_.size(), lostFrames_ > 0 ? kTriedWhenLost : kTried);
   const auto order = keyFrames_.nearestFirst(view, belief.T_world_camera, lastReference_);
   base::Random random(config_.seed + 0x9e3779b97f4a7c15U * (frames_ + 1));
-  for (std::size_t i = 0; i < tried; ++i) {
+  std::optional<Pose3> best;
+  int most = 0;
+  for (std::size_t i = 0; i < tried && most < kBeyondDoubt; ++i) {
     const KeyFrame& key = keyFrames_[order[i]];
     const auto matches = rgbd::matchAnywhere(key.view.points, view.points);
-    if (const auto T_key_camera = rgbd::poseFromMatches(key.view, view, matches, random)) {
-      return key.T_world_camera * *T_key_camera;
-    }
+    const auto pose = rgbd::poseFromMatches(key.view, view, matches, random);
+    if (!pose || pose->inliers <= most) continue;
+    most = pose->inliers;
+    best = key.T_world_camera * pose->T_reference_current;
   }
-  return std::nullopt;
+  return best;
 }
 
-std::optional<RgbdOdometry::Implementation::Found> RgbdOdometry::Implementation::find(const View& view,
-                                                                                      const rgbd::Belief& belief) {
+/// Against the key frames that have most in common with what is seen, if the camera is near `start`.
+RgbdOdometry::Implementation::Found RgbdOdometry::Implementation::alignNear(const View& view, const Pose3& start,
+                                                                            double radius,
+                                                                            const rgbd::Belief& belief) const {
   constexpr double kLeastOverlap = 0.3;
-  constexpr double kRadius = 12.0;      // pixels, around where the key points put it
-  constexpr double kWideRadius = 40.0;  // around where it was expected
-  const auto guessed = guess(view, belief);
-  if (!guessed && lostFrames_ > 0) return std::nullopt;
-  const Pose3 start = guessed.value_or(belief.T_world_camera);
   Found found;
+  std::vector<rgbd::Reference> references;
   for (const auto& [index, share] : keyFrames_.byOverlap(view, start)) {
-    if (found.references.size() == static_cast<std::size_t>(config_.references)) break;
-    if (share < kLeastOverlap && !found.references.empty()) break;
+    if (references.size() == static_cast<std::size_t>(config_.references)) break;
+    if (share < kLeastOverlap && !references.empty()) break;
     const KeyFrame& key = keyFrames_[index];
-    if (found.references.empty()) {
+    if (references.empty()) {
       found.best = index;
-      found.bestOverlap = share;
+      found.overlap = share;
     }
-    found.indices.push_back(index);
-    found.references.push_back({&key.view, key.T_world_camera,
-                                rgbd::matchNear(key.view.points, view.points, start.inverse() * key.T_world_camera,
-                                                view.camera, guessed ? kRadius : kWideRadius)});
+    auto matches =
+        rgbd::matchNear(key.view.points, view.points, start.inverse() * key.T_world_camera, view.camera, radius);
+    references.push_back({&key.view, key.T_world_camera, std::move(matches)});
   }
   std::optional<rgbd::FloorSeen> floor;
   if (isLevelled_) {
     if (const auto plane = rgbd::confirmFloor(view.depth, start)) floor = rgbd::FloorSeen{*plane};
   }
-  found.alignment = rgbd::align(view, found.references, start, belief, floor);
-  constexpr int kLeastInliers = 20;
-  constexpr double kLeastAgreeing = 0.7;
-  const bool byPoints = found.alignment.pointInliers >= kLeastInliers;
-  const bool byDepth =
-      found.alignment.depthCount >= static_cast<int>(kLeastDepths) && found.alignment.depthInliers >= kLeastAgreeing;
-  if (!byPoints && !byDepth) return std::nullopt;
+  found.alignment = rgbd::align(view, references, start, belief, floor);
+  return found;
+}
+
+std::optional<RgbdOdometry::Implementation::Found> RgbdOdometry::Implementation::find(
+    const View& view, const rgbd::Belief& belief) const {
+  constexpr double kRadius = 12.0;      // pixels, around where the key points put it
+  constexpr double kWideRadius = 40.0;  // around where it was expected
+  constexpr double kBeyondDoubt = 1.5;  // of at most 2
+  std::optional<Found> found;
+  if (const auto start = guess(view, belief)) found = alignNear(view, *start, kRadius, belief);
+  const bool isExpected = lostFrames_ == 0;  // a place that was lost is not found by surfaces alone
+  if (isExpected && (!found || found->alignment.quality() < kBeyondDoubt)) {
+    auto other = alignNear(view, belief.T_world_camera, kWideRadius, belief);
+    if (!found || other.alignment.quality() > found->alignment.quality()) found = std::move(other);
+  }
+  if (!found || !found->alignment.isConvincing()) return std::nullopt;
   return found;
 }
 
@@ -308,7 +318,8 @@ RgbdOdometry::Estimate RgbdOdometry::Implementation::track(base::Time time, cons
   lastCovariance_ = covariance;
 
   constexpr double kNewKeyFrame = 0.75;
-  if (found->bestOverlap < kNewKeyFrame && view.depth.known() >= kLeastDepths) {
+  constexpr double kGood = 0.9;  // what came out blurred or doubtful is nothing to align with
+  if (found->overlap < kNewKeyFrame && found->alignment.quality() > kGood && view.depth.known() >= kLeastDepths) {
     view.depth.computeNormals();
     keyFrames_.add({number, std::move(view), T_world_last_});
     lastReference_ = keyFrames_.size() - 1;
