@@ -6,11 +6,14 @@
 #include "localization/pose_problem.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <span>
+#include <utility>
 
 namespace prodomos::localization {
 
-/// Gauss and Newton's steps, with Levenberg and Marquardt's damping only where one does not lead down.
+/// Gauss and Newton's steps, with Levenberg and Marquardt's damping only where one does not lead down. Near the end the
+/// equations hardly change from step to step: their factors, which take most of the time, are kept.
 template <typename Pose>
 class Descent {
  public:
@@ -21,23 +24,33 @@ class Descent {
   bool run(std::span<const double> weights, int steps) {
     if (problem_.unknowns() == 0) return true;
     double chi2 = problem_.linearize(weights);
+    double gain = std::numeric_limits<double>::infinity();  // that the last step was to bring
+    bool isFactorized = false;
     while (steps-- > 0) {
       ++iterations_;
-      if (!cholesky_.factorize(problem_.matrix(), damping_)) {
+      if (!isFactorized && !cholesky_.factorize(problem_.matrix(), damping_)) {
         if (!damp()) return true;
         continue;
       }
       Eigen::VectorXd motion = -problem_.gradient();
       cholesky_.solve(motion);
-      const bool isLast = -problem_.gradient().dot(motion) <= config_.tolerance * chi2;
+      const double lastGain = std::exchange(gain, -problem_.gradient().dot(motion));
+      const bool isLast = gain <= config_.tolerance * chi2;
       auto states = problem_.moved(motion);
-      if (problem_.chi2(states, weights) < chi2) {
+      const bool leadsDown = problem_.chi2(states, weights) < chi2;
+      if (leadsDown) {
         damping_ = damping_ > kLeastDamping ? 0.1 * damping_ : 0.0;
         problem_.setStates(std::move(states));
-        if (isLast) return true;
+      }
+      if (isLast) return true;
+      if (leadsDown) {
+        const bool isSlow = isFactorized && gain > kSlow * lastGain;
+        isFactorized = damping_ == 0.0 && gain < kNear * chi2 && !isSlow;
         chi2 = problem_.linearize(weights);
-      } else if (isLast || !damp()) {
-        return true;
+      } else {
+        // With factors of an earlier step it is these that are wrong, not the step's length.
+        if (!isFactorized && !damp()) return true;
+        isFactorized = false;
       }
     }
     return false;
@@ -55,6 +68,8 @@ class Descent {
  private:
   static constexpr double kLeastDamping = 1e-6;
   static constexpr double kMostDamping = 1e12;
+  static constexpr double kNear = 0.1;  ///< factors are kept after a step that took no more than this share off chi²
+  static constexpr double kSlow = 0.2;  ///< and as long as each step brings no more than this share of the one before
 
   /// False where no step is short enough.
   bool damp() {

@@ -35,11 +35,12 @@ class Doubts {
       : problem_(problem),
         descent_(descent),
         doubtful_(doubtful),
-        bound_(chiSquareBound(kDegreesOfFreedom<Pose>, config.rejectedTrueLoops)) {}
+        bound_(chiSquareBound(kDegreesOfFreedom<Pose>, config.rejectedTrueLoops)),
+        isIncremental_(config.isIncremental) {}
 
   /// Weights of 1 or of next to nothing.
   void settle(std::vector<double>& weights) {
-    graduate(weights);
+    isIncremental_ ? keepWhatFits(weights) : graduate(weights);
     std::vector<bool> wasReadmitted(weights.size(), false);
     for (std::size_t round = 0; round < doubtful_.size() + kSpareRounds; ++round) {
       descent_.run(weights, kStepsBetween);
@@ -53,6 +54,11 @@ class Doubts {
   static constexpr double kSharpening = 1.4;
   static constexpr int kStepsBetween = 2;
   static constexpr std::size_t kSpareRounds = 5;
+
+  void keepWhatFits(std::vector<double>& weights) const {
+    const auto errors = problem_.errors(problem_.states());
+    for (const auto i : doubtful_) weights[i] = errors[i] <= bound_ ? 1.0 : kTether;
+  }
 
   void graduate(std::vector<double>& weights) {
     auto errors = problem_.errors(problem_.states());
@@ -104,6 +110,7 @@ class Doubts {
   Descent<Pose>& descent_;
   const std::vector<std::size_t>& doubtful_;
   double bound_;
+  bool isIncremental_;
 };
 
 }  // namespace prodomos::localization

@@ -114,7 +114,7 @@ TEST(DoubtfulLoops, AreJudgedAnewFromTheLastSolution) {
     for (const auto& constraint : drive.graph.constraints) {
       if (constraint.isDoubtful != loops) continue;
       growing.graph.constraints.push_back(constraint);
-      if (loops) optimize(growing.graph);
+      if (loops) optimize(growing.graph, {.isIncremental = true});
     }
   }
   EXPECT_LT(rmse(growing), 1.05 * rmse(atOnce) + 0.005);

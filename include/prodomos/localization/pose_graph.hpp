@@ -71,6 +71,10 @@ struct OptimizerConfig {
   double tolerance = 1e-7;
   /// A doubtful constraint is left out where keeping it costs more chi² than true ones do, but for this share of them.
   double rejectedTrueLoops = 0.001;
+  /// The poses are the solution before some constraints were added: which doubtful ones to keep is decided from what
+  /// fits them, which is quick, instead of anew. Only deciding anew lets many loops outvote odometry that they all
+  /// contradict.
+  bool isIncremental = false;
 };
 
 struct OptimizationReport {
