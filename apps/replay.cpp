@@ -83,25 +83,6 @@ void keepAside(const fs::path& map) {
   std::cerr << "prodomos: " << map.string() << " was there already and is now " << aside.string() << '\n';
 }
 
-/// Makes the tables in a file beside it, so that whenever the run is killed, a map that is there can be opened and
-/// resumed.
-map::MapStore createStore(const fs::path& output) {
-  const std::string unfinished = output.string() + ".part";
-  const auto clear = [&] {
-    std::error_code none;
-    for (const char* part : kMapParts) fs::remove(unfinished + part, none);
-  };
-  clear();
-  try {
-    map::MapStore::create(unfinished).close();
-    fs::rename(unfinished, output);
-  } catch (...) {
-    clear();
-    throw;
-  }
-  return map::MapStore::openForWriting(output);
-}
-
 map::MapStore openStore(const ReplayOptions& options) {
   const fs::path output = options.output;
   std::error_code unknown;
@@ -112,7 +93,7 @@ map::MapStore openStore(const ReplayOptions& options) {
   } else if (exists) {
     keepAside(output);
   }
-  return createStore(output);
+  return map::MapStore::create(output);
 }
 
 /// A session goes on as it was begun: with its own configuration and its own log.

@@ -94,6 +94,7 @@ Json nodeJson(const map::MapView& view, const map::Node& node) {
           {"place", optionalJson(node.place)},
           {"T_map_submap", poseJson(node.T_map_submap)},
           {"T_travel_submap", poseJson(node.T_travel_submap)},
+          {"covariance", node.covariance ? upperTriangle(*node.covariance) : Json(nullptr)},
           {"begin", base::toString(node.begin)},
           {"end", base::toString(node.end)},
           {"distance", number(node.distance)},

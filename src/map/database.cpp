@@ -19,6 +19,9 @@ void throwDatabaseError(sqlite3* connection, const std::string& path, const std:
   if (code == SQLITE_CANTOPEN || code == SQLITE_READONLY || code == SQLITE_PERM) {
     throw base::FileError(path + ": cannot be opened or written while " + during + " (" + said + ")");
   }
+  if (extended == SQLITE_CONSTRAINT_FOREIGNKEY) {
+    throw base::FileError(path + ": expected each row to refer to others of the map, found one that refers to nothing");
+  }
   if (code == SQLITE_BUSY) throw base::FileError(path + ": another process is writing to the map");
   throw base::FileError(path + ": " + said + " while " + during);
 }

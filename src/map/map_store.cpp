@@ -17,7 +17,10 @@ class ChangeWriter {
   ChangeWriter(const Database& database, std::int64_t revision) : database_(database), revision_(revision) {}
 
   void write(const std::vector<Session>& sessions) {
-    auto row = database_.prepare("INSERT OR REPLACE INTO session VALUES (?,?,?,?,?,?,?,?,?,?,?, ?,?,?,?,?,?,?, ?)");
+    auto row = database_.prepare(upsertion("session", "id",
+                                           "log, log_kind, config, poses, version, classes, state, begin_ns, end_ns, "
+                                           "distance, " +
+                                               poseColumns() + ", revision"));
     for (const auto& s : sessions) {
       row << s.id << s.log << s.logKind << s.config << s.poses << s.version << toJson(s.classes) << toString(s.state)
           << s.begin << s.end << s.distance << s.T_map_travel << revision_;
@@ -30,34 +33,30 @@ class ChangeWriter {
   }
 
   void write(const std::vector<Floor>& floors) {
-    auto row = database_.prepare("INSERT OR REPLACE INTO floor VALUES (?,?,?)");
+    auto row = database_.prepare(upsertion("floor", "number", "height, revision"));
     for (const auto& floor : floors) {
       row << floor.number << floor.height << revision_;
       row.run();
     }
   }
 
+  /// All but the place, which is the whole graph's to say.
   void write(const std::vector<Node>& nodes) {
-    // Replacing would lose the place, which is the whole graph's to say.
-    auto row = database_.prepare(
-        "INSERT INTO node VALUES (?,?,?,?,NULL,?,?,?,?, ?,?,?,?,?,?,?, ?,?,?,?,?,?,?, ?) ON CONFLICT (id) DO UPDATE "
-        "SET "
-        "session=excluded.session, kind=excluded.kind, floor=excluded.floor, begin_ns=excluded.begin_ns, "
-        "end_ns=excluded.end_ns, distance=excluded.distance, readings=excluded.readings, x=excluded.x, y=excluded.y, "
-        "z=excluded.z, qx=excluded.qx, qy=excluded.qy, qz=excluded.qz, qw=excluded.qw, travel_x=excluded.travel_x, "
-        "travel_y=excluded.travel_y, travel_z=excluded.travel_z, travel_qx=excluded.travel_qx, "
-        "travel_qy=excluded.travel_qy, travel_qz=excluded.travel_qz, travel_qw=excluded.travel_qw, "
-        "revision=excluded.revision");
+    auto row =
+        database_.prepare(upsertion("node", "id",
+                                    "session, kind, floor, begin_ns, end_ns, distance, readings, " + poseColumns() +
+                                        ", " + poseColumns("travel_") + ", covariance, revision"));
     for (const auto& node : nodes) {
       row << node.id << node.session << toString(node.kind) << node.floor << node.begin << node.end << node.distance
-          << node.readings << node.T_map_submap << node.T_travel_submap << revision_;
+          << node.readings << node.T_map_submap << node.T_travel_submap
+          << (node.covariance ? std::optional(upperTriangle(*node.covariance)) : std::nullopt) << revision_;
       row.run();
-      moveTrajectory(node);
     }
   }
 
   void write(const std::vector<Edge>& edges) {
-    auto row = database_.prepare("INSERT OR REPLACE INTO edge VALUES (?,?,?,?, ?,?,?,?,?,?,?, ?,?,?)");
+    auto row = database_.prepare(
+        upsertion("edge", "id", "from_node, to_node, kind, " + poseColumns() + ", information, entity, revision"));
     for (const auto& edge : edges) {
       row << edge.id << edge.from << edge.to << toString(edge.kind) << edge.T_from_to << upperTriangle(edge.information)
           << edge.cause << revision_;
@@ -65,8 +64,19 @@ class ChangeWriter {
     }
   }
 
+  void remove(const std::vector<base::EdgeId>& edges) {
+    auto row = database_.prepare("DELETE FROM edge WHERE id = ?");
+    for (const auto id : edges) {
+      row << id;
+      row.run();
+    }
+  }
+
   void write(const std::vector<Entity>& entities) {
-    auto row = database_.prepare("INSERT OR REPLACE INTO entity VALUES (?,?,?,?, ?,?,?,?,?,?,?, ?,?,?,?,?,?,?, ?)");
+    auto row = database_.prepare(upsertion("entity", "id",
+                                           "node, class, mobility, " + poseColumns() +
+                                               ", attributes, confidence, observations, first_seen_ns, last_seen_ns, "
+                                               "covariance, points, revision"));
     for (const auto& entity : entities) {
       const std::span points(entity.points_in_submap);
       row << entity.id << entity.submap << className(entity.attributes) << toString(mobility(entity.attributes))
@@ -78,7 +88,9 @@ class ChangeWriter {
   }
 
   void write(const std::vector<Prediction>& predictions) {
-    auto row = database_.prepare("INSERT OR REPLACE INTO prediction VALUES (?,?,?,?,?,?,?,?,?,?,NULL,?)");
+    auto row = database_.prepare(upsertion("prediction", "id",
+                                           "entity, node, probability, expected_area, areas, made_ns, state, "
+                                           "settled_ns, merged_into, revision"));
     for (const auto& prediction : predictions) {
       row << prediction.id << prediction.cause << prediction.node << prediction.probability << prediction.expectedArea
           << toJson(prediction.areas) << prediction.made << toString(prediction.state) << prediction.settled
@@ -87,22 +99,23 @@ class ChangeWriter {
     }
   }
 
+  /// Within their sub-maps, so that they need not be written again when these move.
   void write(const std::vector<TrajectoryPoint>& points) {
-    auto row = database_.prepare("INSERT INTO trajectory VALUES (NULL,?,?,?, ?,?,?,?,?,?,?, ?,?,?,?,?,?,?)");
+    auto row = database_.prepare(insertion("trajectory_point", "session, time_ns, node, " + poseColumns()));
     base::SubMapId submap{-1};
-    geometry::Pose3 T_map_travel;
+    geometry::Pose3 T_submap_travel;
     for (const auto& point : points) {
       if (point.submap != submap) {
         submap = point.submap;
-        T_map_travel = mapFromTravel(submap);
+        T_submap_travel = travelPose(submap).inverse();
       }
-      row << point.session << point.time << point.submap << T_map_travel * point.T_travel_body << point.T_travel_body;
+      row << point.session << point.time << point.submap << T_submap_travel * point.T_travel_body;
       row.run();
     }
   }
 
   void write(const std::vector<Event>& events) {
-    auto row = database_.prepare("INSERT INTO event VALUES (NULL,?,?,?,?,?,?)");
+    auto row = database_.prepare(insertion("event", "time_ns, session, kind, subject, payload, revision"));
     for (const auto& event : events) {
       row << event.time << event.session << event.kind << event.subject << event.payload << revision_;
       row.run();
@@ -110,19 +123,19 @@ class ChangeWriter {
   }
 
   void write(const std::vector<std::pair<base::SubMapId, const MapLayer*>>& layers) {
-    auto row = database_.prepare("INSERT OR REPLACE INTO layer VALUES (?,?,?,'zlib',?,?,?,?)");
+    auto row = database_.prepare(upsertion("layer", "node, type", "version, codec, raw_size, crc32, data, revision"));
     for (const auto& [submap, layer] : layers) {
       base::ByteWriter raw;
       layer->save(raw);
       const auto packed = compress(raw.bytes());
-      row << submap << layer->typeId() << layer->version() << static_cast<std::int64_t>(raw.bytes().size())
+      row << submap << layer->typeId() << layer->version() << "zlib" << static_cast<std::int64_t>(raw.bytes().size())
           << checksum(packed) << std::span(packed) << revision_;
       row.run();
     }
   }
 
   void write(const Checkpoint& checkpoint) {
-    auto row = database_.prepare("INSERT OR REPLACE INTO checkpoint VALUES (?,?,?,?)");
+    auto row = database_.prepare(upsertion("checkpoint", "session", "crc32, state, revision"));
     row << checkpoint.session << checksum(checkpoint.state) << std::span(checkpoint.state) << revision_;
     row.run();
   }
@@ -141,27 +154,11 @@ class ChangeWriter {
   }
 
  private:
-  geometry::Pose3 mapFromTravel(base::SubMapId submap) const {
-    auto row = database_.prepare(
-        "SELECT x, y, z, qx, qy, qz, qw, travel_x, travel_y, travel_z, travel_qx, travel_qy, travel_qz, travel_qw "
-        "FROM node WHERE id = ?");
+  geometry::Pose3 travelPose(base::SubMapId submap) const {
+    auto row = database_.prepare("SELECT " + poseColumns("travel_") + " FROM node WHERE id = ?");
     row << submap;
     if (!row.step()) throw base::Error("expected sub-map " + toString(submap) + " before its trajectory");
-    return getPose(row, 0) * getPose(row, 7).inverse();
-  }
-
-  /// Where a node is refined, its stretch of the trajectory moves with it.
-  void moveTrajectory(const Node& node) {
-    auto points = database_.prepare(
-        "SELECT id, travel_x, travel_y, travel_z, travel_qx, travel_qy, travel_qz, travel_qw FROM trajectory "
-        "WHERE node = ?");
-    auto row = database_.prepare("UPDATE trajectory SET x=?, y=?, z=?, qx=?, qy=?, qz=?, qw=? WHERE id = ?");
-    const geometry::Pose3 T_map_travel = node.T_map_submap * node.T_travel_submap.inverse();
-    points << node.id;
-    while (points.step()) {
-      row << T_map_travel * getPose(points, 1) << points.get<std::int64_t>(0);
-      row.run();
-    }
+    return getPose(row, 0);
   }
 
   const Database& database_;
@@ -170,27 +167,43 @@ class ChangeWriter {
 
 }  // namespace
 
-MapStore::MapStore(std::shared_ptr<Database> database) : database_(std::move(database)) {}
+MapStore::MapStore(std::shared_ptr<Database> database) : database_(std::move(database)) {
+  database_->execute("PRAGMA foreign_keys = ON");
+}
 MapStore::MapStore(MapStore&&) noexcept = default;
 MapStore& MapStore::operator=(MapStore&&) noexcept = default;
 MapStore::~MapStore() = default;
 
 MapStore MapStore::create(const std::filesystem::path& path) {
   if (std::filesystem::exists(path)) throw base::FileError(path.string() + ": is there already");
-  auto database = std::make_shared<Database>(path, Database::Access::kCreate);
-  createSchema(*database);
-  return MapStore(std::move(database));
+  // Made beside it: whenever this process is killed, a map that is there can be opened.
+  const std::string unfinished = path.string() + ".part";
+  const auto clear = [&] {
+    std::error_code none;
+    for (const char* part : {"", "-journal"}) std::filesystem::remove(unfinished + part, none);
+  };
+  clear();
+  try {
+    createSchema(Database(unfinished, Database::Access::kCreate));
+    std::filesystem::rename(unfinished, path);
+  } catch (const std::filesystem::filesystem_error& fault) {
+    clear();
+    throw base::FileError(path.string() + ": cannot be written (" + fault.code().message() + ")");
+  } catch (...) {
+    clear();
+    throw;
+  }
+  return openForWriting(path);
 }
 
 MapStore MapStore::openForWriting(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path))
     throw base::FileError(base::expectedFound(path.string(), "a map", "no such file"));
   auto database = std::make_shared<Database>(path, Database::Access::kWrite);
-  // A process that was killed before its first commit leaves an empty file behind.
-  if (database->number("SELECT count(*) FROM sqlite_master") == 0) createSchema(*database);
   checkSchema(*database);
   database->execute("PRAGMA journal_mode = WAL");
   database->execute("PRAGMA synchronous = NORMAL");
+  upgradeSchema(*database);
   return MapStore(std::move(database));
 }
 
@@ -220,12 +233,13 @@ std::int64_t MapStore::commit(const MapChange& change) {
   writer.write(change.nodes);
   writer.write(change.entities);
   writer.write(change.edges);
+  writer.remove(change.removedEdges);
   writer.write(change.predictions);
   writer.write(change.trajectory);
   writer.write(change.events);
   writer.write(change.layers);
   if (change.checkpoint) writer.write(*change.checkpoint);
-  if (!change.nodes.empty() || !change.edges.empty()) writer.updatePlaces();
+  if (!change.nodes.empty() || !change.edges.empty() || !change.removedEdges.empty()) writer.updatePlaces();
   transaction.commit();
   return revision;
 }
@@ -240,6 +254,10 @@ std::optional<Checkpoint> MapStore::findCheckpoint(base::SessionId session) cons
                           " is damaged (its checksum differs)");
   }
   return checkpoint;
+}
+
+std::unique_ptr<MapLayer> MapStore::findLayer(base::SubMapId submap, std::string_view typeId) const {
+  return readLayer(*database_, submap, typeId);
 }
 
 MapView MapStore::view(std::shared_ptr<const SubMap> running, const std::optional<Edge>& edgeTo) const {

@@ -4,7 +4,6 @@
 
 #include "prodomos/map/config.hpp"
 
-#include "map/blob.hpp"
 #include "map/database.hpp"
 #include "map/names.hpp"
 #include "map/rows.hpp"
@@ -170,28 +169,7 @@ std::shared_ptr<const MapLayer> MapView::findLayer(base::SubMapId submap, std::s
     const auto* layer = running_->findLayer(typeId);
     return layer == nullptr ? nullptr : std::shared_ptr<const MapLayer>(running_, layer);
   }
-  auto row = database_->prepare("SELECT version, raw_size, crc32, data FROM layer WHERE node = ? AND type = ?");
-  row << submap << typeId;
-  if (!row.step()) return nullptr;
-  auto layer = makeLayer(typeId, {});
-  if (layer == nullptr) return nullptr;
-
-  const auto place = database_->path() + ": layer " + std::string(typeId) + " of sub-map " + toString(submap);
-  const auto packed = row.get<std::vector<std::byte>>(3);
-  const int version = row.get<int>(0);
-  if (checksum(packed) != row.get<std::int64_t>(2)) throw base::FileError(place + " is damaged (its checksum differs)");
-  if (version > layer->version()) {
-    throw base::FileError(base::expectedFound(place, "version " + std::to_string(layer->version()) + " or older",
-                                              "version " + std::to_string(version) + "; a newer prodomos wrote it"));
-  }
-  try {
-    const auto raw = decompress(packed, static_cast<std::size_t>(row.get<std::int64_t>(1)));
-    base::ByteReader reader(raw);
-    layer->load(reader, version);
-  } catch (const base::Error& fault) {
-    throw base::FileError(place + ": " + fault.what());
-  }
-  return layer;
+  return readLayer(*database_, submap, typeId);
 }
 
 std::vector<TrajectoryPoint> MapView::trajectory() const {

@@ -2,7 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map/rows.hpp"
 
+#include "prodomos/map/config.hpp"
+
+#include "map/blob.hpp"
+
+#include "prodomos/map/config.hpp"
 #include "map/names.hpp"
+#include "map/schema.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -19,7 +25,43 @@ double real(const json& number) {
   return number.is_null() ? std::numeric_limits<double>::quiet_NaN() : number.get<double>();
 }
 
+/// The parts of "a, b, c".
+std::vector<std::string> namesIn(const std::string& columns) {
+  std::vector<std::string> names;
+  for (std::size_t begin = 0; begin < columns.size();) {
+    const auto end = std::min(columns.find(", ", begin), columns.size());
+    names.push_back(columns.substr(begin, end - begin));
+    begin = end + 2;
+  }
+  return names;
+}
+
+/// Names come from logs, and may hold bytes that are no UTF-8.
+std::string dump(const json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
 }  // namespace
+
+std::string poseColumns(const std::string& prefix) {
+  std::string columns;
+  for (const char* name : {"x", "y", "z", "qx", "qy", "qz", "qw"}) {
+    columns += (columns.empty() ? "" : ", ") + prefix + name;
+  }
+  return columns;
+}
+
+std::string insertion(const std::string& table, const std::string& columns) {
+  std::string marks = "?";
+  for (std::size_t i = 1; i < namesIn(columns).size(); ++i) marks += ",?";
+  return "INSERT INTO " + table + " (" + columns + ") VALUES (" + marks + ")";
+}
+
+std::string upsertion(const std::string& table, const std::string& key, const std::string& others) {
+  std::string changes;
+  for (const auto& name : namesIn(others)) changes += (changes.empty() ? "" : ", ") + name + " = excluded." + name;
+  return insertion(table, key + ", " + others) + " ON CONFLICT (" + key + ") DO UPDATE SET " + changes;
+}
 
 Statement& operator<<(Statement& statement, const geometry::Pose3& pose) {
   const auto& t = pose.translation();
@@ -39,7 +81,7 @@ std::string upperTriangle(const Matrix6& matrix) {
   for (int row = 0; row < 6; ++row) {
     for (int column = row; column < 6; ++column) numbers.push_back(matrix(row, column));
   }
-  return numbers.dump();
+  return dump(numbers);
 }
 
 Matrix6 symmetricFrom(const std::string& upperTriangle) {
@@ -57,7 +99,7 @@ Matrix6 symmetricFrom(const std::string& upperTriangle) {
 std::string toJson(const sensors::ClassTable& classes) {
   json table = json::object();
   for (const auto& [id, name] : classes) table[std::to_string(id)] = name;
-  return table.dump();
+  return dump(table);
 }
 
 sensors::ClassTable classTableFrom(const std::string& json) {
@@ -74,7 +116,7 @@ std::string toJson(const std::vector<PredictedArea>& areas) {
     for (const auto& point : area.outline_in_submap) outline.push_back({point.x(), point.y()});
     list.push_back({{"threshold", area.threshold}, {"outline", outline}});
   }
-  return list.dump();
+  return dump(list);
 }
 
 std::vector<PredictedArea> predictedAreasFrom(const std::string& json) {
@@ -90,11 +132,36 @@ std::vector<PredictedArea> predictedAreasFrom(const std::string& json) {
   return areas;
 }
 
+std::unique_ptr<MapLayer> readLayer(const Database& database, base::SubMapId submap, std::string_view typeId) {
+  auto row = database.prepare("SELECT version, raw_size, crc32, data FROM layer WHERE node = ? AND type = ?");
+  row << submap << typeId;
+  if (!row.step()) return nullptr;
+  auto layer = makeLayer(typeId, {});
+  if (layer == nullptr) return nullptr;
+
+  const auto place = database.path() + ": layer " + std::string(typeId) + " of sub-map " + toString(submap);
+  const auto packed = row.get<std::vector<std::byte>>(3);
+  const int version = row.get<int>(0);
+  if (checksum(packed) != row.get<std::int64_t>(2)) throw base::FileError(place + " is damaged (its checksum differs)");
+  if (version > layer->version()) {
+    throw base::FileError(base::expectedFound(place, "version " + std::to_string(layer->version()) + " or older",
+                                              "version " + std::to_string(version) + "; a newer prodomos wrote it"));
+  }
+  try {
+    const auto raw = decompress(packed, static_cast<std::size_t>(row.get<std::int64_t>(1)));
+    base::ByteReader reader(raw);
+    layer->load(reader, version);
+  } catch (const base::Error& fault) {
+    throw base::FileError(place + ": " + fault.what());
+  }
+  return layer;
+}
+
 TopologicalGraph readGraph(const Database& database) {
   TopologicalGraph graph;
-  auto row = database.prepare(
-      "SELECT id, session, kind, floor, place, begin_ns, end_ns, distance, readings, x, y, z, qx, qy, qz, qw, "
-      "travel_x, travel_y, travel_z, travel_qx, travel_qy, travel_qz, travel_qw FROM node ORDER BY id");
+  auto row = database.prepare("SELECT id, session, kind, floor, place, begin_ns, end_ns, distance, readings, " +
+                              poseColumns() + ", " + poseColumns("travel_") + ", " +
+                              (hasCovariances(database) ? "covariance" : "NULL") + " FROM node ORDER BY id");
   while (row.step()) {
     Node node;
     node.id = getId<base::SubMapId>(row, 0);
@@ -108,6 +175,7 @@ TopologicalGraph readGraph(const Database& database) {
     node.readings = row.get<int>(8);
     node.T_map_submap = getPose(row, 9);
     node.T_travel_submap = getPose(row, 16);
+    if (const auto covariance = row.find<std::string>(23)) node.covariance = symmetricFrom(*covariance);
     graph.addNode(node);
   }
   auto link = database.prepare(

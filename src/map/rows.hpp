@@ -5,6 +5,7 @@
 #include "prodomos/base/id.hpp"
 #include "prodomos/base/time.hpp"
 #include "prodomos/map/entity.hpp"
+#include "prodomos/map/layer.hpp"
 #include "prodomos/map/prediction.hpp"
 #include "prodomos/map/records.hpp"
 #include "prodomos/map/topological_graph.hpp"
@@ -44,6 +45,14 @@ inline base::Time getTime(const Statement& row, int column) {
   return base::fromNanoseconds(row.get<std::int64_t>(column));
 }
 geometry::Pose3 getPose(const Statement& row, int firstColumn);
+/// The names of a pose's columns, "x, y, z, qx, qy, qz, qw", each with the prefix.
+std::string poseColumns(const std::string& prefix = "");
+
+/// SQL that inserts a row of these columns.
+std::string insertion(const std::string& table, const std::string& columns);
+/// The same; but where a row of this key is there already, its other columns are changed in place. Rows are never
+/// replaced, for others refer to them.
+std::string upsertion(const std::string& table, const std::string& key, const std::string& others);
 
 /// The upper triangle, row by row, as a JSON array of 21 numbers.
 std::string upperTriangle(const Matrix6& matrix);
@@ -53,6 +62,10 @@ std::string toJson(const sensors::ClassTable& classes);
 sensors::ClassTable classTableFrom(const std::string& json);
 std::string toJson(const std::vector<PredictedArea>& areas);
 std::vector<PredictedArea> predictedAreasFrom(const std::string& json);
+
+/// Null where the sub-map has no such layer or the type is unknown to this version. Throws base::FileError where its
+/// bytes are damaged (checksum) or of a newer version.
+std::unique_ptr<MapLayer> readLayer(const Database& database, base::SubMapId submap, std::string_view typeId);
 
 /// All nodes and edges that the file holds.
 TopologicalGraph readGraph(const Database& database);

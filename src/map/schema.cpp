@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map/schema.hpp"
 
+#include "map/rows.hpp"
+
 namespace prodomos::map {
 
 namespace {
@@ -29,7 +31,7 @@ CREATE TABLE node (
   x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL, qx REAL NOT NULL, qy REAL NOT NULL, qz REAL NOT NULL, qw REAL NOT NULL,
   travel_x REAL NOT NULL, travel_y REAL NOT NULL, travel_z REAL NOT NULL,
   travel_qx REAL NOT NULL, travel_qy REAL NOT NULL, travel_qz REAL NOT NULL, travel_qw REAL NOT NULL,
-  revision INTEGER NOT NULL);
+  covariance TEXT, revision INTEGER NOT NULL);
 
 CREATE TABLE entity (
   id INTEGER PRIMARY KEY, node INTEGER NOT NULL REFERENCES node, class TEXT NOT NULL, mobility TEXT NOT NULL,
@@ -59,14 +61,6 @@ CREATE TABLE track_state (
   vx REAL, vy REAL, vz REAL, attributes TEXT NOT NULL, revision INTEGER NOT NULL,
   PRIMARY KEY (track, time_ns)) WITHOUT ROWID;
 
-CREATE TABLE trajectory (
-  id INTEGER PRIMARY KEY, session INTEGER NOT NULL REFERENCES session, time_ns INTEGER NOT NULL,
-  node INTEGER NOT NULL REFERENCES node,
-  x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL, qx REAL NOT NULL, qy REAL NOT NULL, qz REAL NOT NULL, qw REAL NOT NULL,
-  travel_x REAL NOT NULL, travel_y REAL NOT NULL, travel_z REAL NOT NULL,
-  travel_qx REAL NOT NULL, travel_qy REAL NOT NULL, travel_qz REAL NOT NULL, travel_qw REAL NOT NULL);
-CREATE INDEX trajectory_by_node ON trajectory (node);
-
 CREATE TABLE event (
   id INTEGER PRIMARY KEY, time_ns INTEGER NOT NULL, session INTEGER NOT NULL REFERENCES session, kind TEXT NOT NULL,
   subject TEXT NOT NULL, payload TEXT NOT NULL, revision INTEGER NOT NULL);
@@ -80,16 +74,85 @@ CREATE TABLE checkpoint (
   session INTEGER PRIMARY KEY REFERENCES session, crc32 INTEGER NOT NULL, state BLOB NOT NULL, revision INTEGER NOT NULL);
 )sql";
 
+// Where the robot was within its sub-map, which never moves internally: refinement moves the sub-maps alone.
+constexpr const char* kTrajectoryTable = R"sql(
+CREATE TABLE trajectory_point (
+  id INTEGER PRIMARY KEY, session INTEGER NOT NULL REFERENCES session, time_ns INTEGER NOT NULL,
+  node INTEGER NOT NULL REFERENCES node,
+  x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL, qx REAL NOT NULL, qy REAL NOT NULL, qz REAL NOT NULL, qw REAL NOT NULL);
+)sql";
+
+// T_map_submap * T_submap_body of the node n and the point p, or with the prefix "travel_" for $ the same as travelled.
+constexpr const char* kComposedPose = R"sql(,
+  n.$x + (1 - 2*(n.$qy*n.$qy + n.$qz*n.$qz))*p.x + 2*(n.$qx*n.$qy - n.$qz*n.$qw)*p.y + 2*(n.$qx*n.$qz + n.$qy*n.$qw)*p.z AS $x,
+  n.$y + 2*(n.$qx*n.$qy + n.$qz*n.$qw)*p.x + (1 - 2*(n.$qx*n.$qx + n.$qz*n.$qz))*p.y + 2*(n.$qy*n.$qz - n.$qx*n.$qw)*p.z AS $y,
+  n.$z + 2*(n.$qx*n.$qz - n.$qy*n.$qw)*p.x + 2*(n.$qy*n.$qz + n.$qx*n.$qw)*p.y + (1 - 2*(n.$qx*n.$qx + n.$qy*n.$qy))*p.z AS $z,
+  n.$qw*p.qx + n.$qx*p.qw + n.$qy*p.qz - n.$qz*p.qy AS $qx,
+  n.$qw*p.qy - n.$qx*p.qz + n.$qy*p.qw + n.$qz*p.qx AS $qy,
+  n.$qw*p.qz + n.$qx*p.qy - n.$qy*p.qx + n.$qz*p.qw AS $qz,
+  n.$qw*p.qw - n.$qx*p.qx - n.$qy*p.qy - n.$qz*p.qz AS $qw)sql";
+
+// The same rotation with qw >= 0.
+constexpr const char* kPositivePose = R"sql(, $x, $y, $z,
+  CASE WHEN $qw < 0 THEN -$qx ELSE $qx END AS $qx, CASE WHEN $qw < 0 THEN -$qy ELSE $qy END AS $qy,
+  CASE WHEN $qw < 0 THEN -$qz ELSE $qz END AS $qz, abs($qw) AS $qw)sql";
+
+std::string withPrefix(std::string sql, const std::string& prefix) {
+  for (auto at = sql.find('$'); at != std::string::npos; at = sql.find('$', at)) sql.replace(at, 1, prefix);
+  return sql;
+}
+
+/// The trajectory in the map and as travelled, for readers in all languages.
+std::string trajectoryView() {
+  return "CREATE VIEW trajectory AS SELECT id, session, time_ns, node" + withPrefix(kPositivePose, "") +
+         withPrefix(kPositivePose, "travel_") + "\nFROM (SELECT p.id, p.session, p.time_ns, p.node" +
+         withPrefix(kComposedPose, "") + withPrefix(kComposedPose, "travel_") +
+         "\n  FROM trajectory_point AS p JOIN node AS n ON n.id = p.node)";
+}
+
+std::int64_t versionOf(const Database& database) {
+  return database.number("PRAGMA user_version");
+}
+
+/// Of the first version, which kept both poses of each point, and rewrote them whenever their sub-map moved.
+void moveTrajectoryIntoSubMaps(const Database& database) {
+  database.execute("ALTER TABLE trajectory RENAME TO trajectory_1");
+  database.execute(kTrajectoryTable);
+  auto old = database.prepare("SELECT t.id, t.session, t.time_ns, t.node, " + poseColumns("t.travel_") + ", " +
+                              poseColumns("n.travel_") + " FROM trajectory_1 AS t JOIN node AS n ON n.id = t.node");
+  auto row = database.prepare(insertion("trajectory_point", "id, session, time_ns, node, " + poseColumns()));
+  while (old.step()) {
+    for (int column = 0; column < 4; ++column) row << old.get<std::int64_t>(column);
+    row << getPose(old, 11).inverse() * getPose(old, 4);
+    row.run();
+  }
+}
+
 }  // namespace
 
 void createSchema(const Database& database) {
-  database.execute("PRAGMA journal_mode = WAL");
-  database.execute("PRAGMA synchronous = NORMAL");
   Database::Transaction transaction(database);
   database.execute("PRAGMA application_id = " + std::to_string(kApplicationId));
   database.execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
   database.execute(kTables);
+  database.execute(kTrajectoryTable);
+  database.execute(trajectoryView());
   transaction.commit();
+}
+
+void upgradeSchema(const Database& database) {
+  if (versionOf(database) == kSchemaVersion) return;
+  Database::Transaction transaction(database);
+  database.execute("ALTER TABLE node ADD COLUMN covariance TEXT");
+  moveTrajectoryIntoSubMaps(database);
+  database.execute("DROP TABLE trajectory_1");
+  database.execute(trajectoryView());
+  database.execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
+  transaction.commit();
+}
+
+bool hasCovariances(const Database& database) {
+  return versionOf(database) >= 2;
 }
 
 void checkSchema(const Database& database) {
@@ -97,7 +160,7 @@ void checkSchema(const Database& database) {
   if (application != kApplicationId) {
     throw base::FileError(base::expectedFound(database.path(), "a prodomos map", "another kind of SQLite file"));
   }
-  const auto version = database.number("PRAGMA user_version");
+  const auto version = versionOf(database);
   if (version > kSchemaVersion) {
     throw base::FileError(base::expectedFound(database.path(),
                                               "a map of schema version " + std::to_string(kSchemaVersion) + " or older",

@@ -7,7 +7,7 @@
 namespace prodomos::map {
 
 /// The version of the map file's tables, in PRAGMA user_version.
-constexpr int kSchemaVersion = 1;
+constexpr int kSchemaVersion = 2;
 /// "prdm", in PRAGMA application_id: tells a map from other SQLite files.
 constexpr int kApplicationId = 0x7072646D;
 
@@ -15,5 +15,9 @@ constexpr int kApplicationId = 0x7072646D;
 void createSchema(const Database& database);
 /// Throws base::FileError where the file is no map or of a newer schema.
 void checkSchema(const Database& database);
+/// Brings the tables of an older map up to this version, in one transaction.
+void upgradeSchema(const Database& database);
+/// What an older version does not have is NULL in queries.
+bool hasCovariances(const Database& database);
 
 }  // namespace prodomos::map

@@ -87,6 +87,13 @@ TEST(Json, TellsExactTimesAndInformationMatrices) {
               ElementsAre(100, 10, 0, 0, 0, 0, 200, 0, 0, 0, 0, 300, 0, 0, 0, 400, 0, 0, 500, 0, 600));
 }
 
+TEST(Json, TellsTheCovariancesOfRefinedNodes) {
+  const auto map = json::parse(test::write("json", sampleView()));
+  EXPECT_TRUE(map["nodes"][0]["covariance"].is_null());
+  EXPECT_THAT(map["nodes"][1]["covariance"].get<std::vector<double>>(),
+              ElementsAre(0.01, 0, 0, 0, 0, 0, 0.01, 0, 0, 0, 0, 0.01, 0, 0, 0, 0.01, 0, 0, 0.01, 0, 0.01));
+}
+
 TEST(Json, KeepsPredictionsApart) {
   const auto map = json::parse(test::write("json", sampleView()));
   const auto& prediction = map["predictions"].at(0);
@@ -153,16 +160,15 @@ TEST(G2o, HoldsTheObservedPoseGraphAlone) {
   for (const auto& edge : edges) EXPECT_EQ(edge.size(), 2U + 7U + 21U);
 }
 
-TEST(G2o, TurnsInformationIntoTheAxesOfTheMeasuredPose) {
-  // The edge from s2 to s3 turns by a quarter: what is along x of `from` is along y of `to`.
+TEST(G2o, GivesTheInformationOfHalfAngles) {
   const auto edge = g2oLines(test::write("g2o", sampleView()), "EDGE_SE3:QUAT").at(1);
   const std::vector<double> information(edge.begin() + 9, edge.end());
-  EXPECT_THAT(information, testing::Pointwise(testing::DoubleNear(1e-6), {200, -10, 0, 0, 0, 0,  //
-                                                                          100, 0,   0, 0, 0,     //
-                                                                          300, 0,   0, 0,        //
-                                                                          500, 0,   0,           //
-                                                                          400, 0,                //
-                                                                          600}));
+  EXPECT_THAT(information, testing::Pointwise(testing::DoubleNear(1e-6), {100, 10, 0, 0, 0, 0,  //
+                                                                          200, 0,  0, 0, 0,     //
+                                                                          300, 0,  0, 0,        //
+                                                                          1600, 0, 0,           //
+                                                                          2000, 0,              //
+                                                                          2400}));
 }
 
 TEST(Topomap, HasWhatTheReaderAsksFor) {

@@ -89,6 +89,7 @@ TEST(Nav2, NamesTheFilesOfASingleFloorAsTold) {
   const auto grid = test::gridFromText({"#.#", "#  "}, 0.05);
   map::MapChange change;
   change.sessions.emplace_back().id = {1};
+  change.floors = {{.number = 3, .height = 9.0}};
   auto& node = change.nodes.emplace_back();
   node.id = {1};
   node.session = {1};

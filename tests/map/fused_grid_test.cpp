@@ -30,6 +30,8 @@ class FusedGrid : public testing::Test {
     node.T_map_submap = geometry::toPose3(T_map_submap, floor.value_or(0) * 3.0);
     const auto grid = gridFromText(drawn, 1.0);
     MapChange change;
+    change.sessions = {{.id = node.session}};
+    if (floor) change.floors = {{*floor, *floor * 3.0}};
     change.nodes = {node};
     change.layers = {{node.id, &grid}};
     store_.commit(change);

@@ -174,6 +174,9 @@ TEST_F(MapFile, KeepsSessionsAndFloors) {
 
 TEST_F(MapFile, KeepsNodesAndEdges) {
   MapChange change;
+  change.sessions = {sessionOf(1), sessionOf(4)};
+  change.floors = {{-1, -3.0}};
+  change.entities = {entityOf(2, 1)};
   change.nodes = {nodeOf(1), nodeOf(3)};
   auto& node = change.nodes[1];
   node.session = {4};
@@ -220,6 +223,31 @@ TEST_F(MapFile, KeepsNodesAndEdges) {
     const double found = link.information(i / 6, i % 6);
     EXPECT_TRUE(found == expected || (std::isnan(found) && std::isnan(expected))) << i / 6 << ", " << i % 6;
   }
+}
+
+TEST_F(MapFile, KeepsTheCovariancesOfNodes) {
+  MapChange change = twoNodes();
+  Matrix6 covariance = Matrix6::Identity() / 3.0;
+  covariance(0, 5) = covariance(5, 0) = -0.1;
+  change.nodes[1].covariance = covariance;
+  auto store = MapStore::create(path_);
+  store.commit(change);
+  EXPECT_EQ(store.view().graph().getNode({1}).covariance, std::nullopt);
+  EXPECT_EQ(store.view().graph().getNode({2}).covariance, covariance);
+
+  change.nodes[0].covariance = covariance;
+  change.nodes[1].covariance = std::nullopt;
+  store.commit(change);
+  EXPECT_EQ(store.view().graph().getNode({1}).covariance, covariance);
+  EXPECT_EQ(store.view().graph().getNode({2}).covariance, std::nullopt);
+}
+
+TEST_F(MapFile, KeepsNamesThatAreNoUtf8AsFarAsTheyCanBeRead) {
+  MapChange change;
+  change.sessions = {sessionOf(1)};
+  change.sessions[0].classes = {{3, "caf\xE9 table"}};
+  write(change);
+  EXPECT_EQ(MapView::open(path_).sessions().at(0).classes.at(3), "caf\xEF\xBF\xBD table");
 }
 
 TEST_F(MapFile, KeepsEntities) {
@@ -360,6 +388,20 @@ TEST_F(MapFile, ReplacesRowsOfTheSameId) {
   EXPECT_EQ(toText(*view.findLayer<OccupancyGrid>({1})), "...\n");
 }
 
+TEST_F(MapFile, ForgetsEdgesThatWereGivenUp) {
+  auto store = MapStore::create(path_);
+  auto change = twoNodes();
+  change.nodes.push_back(nodeOf(3));
+  change.edges.push_back(edgeOf(2, 2, 3, EdgeKind::kLoop));
+  store.commit(change);
+  EXPECT_EQ(store.view().graph().getNode({3}).place, 0);
+  MapChange later;
+  later.removedEdges = {{2}, {77}};
+  store.commit(later);
+  EXPECT_THAT(store.view().graph().edges(), ElementsAre(base::EdgeId{1}));
+  EXPECT_EQ(store.view().graph().getNode({3}).place, 1) << "nothing leads there any more";
+}
+
 TEST_F(MapFile, IsTheSameInMemory) {
   auto store = MapStore::inMemory();
   store.commit(twoNodes());
@@ -372,6 +414,7 @@ TEST_F(MapFile, IsTheSameInMemory) {
 TEST_F(MapFile, NumbersThePlacesOfTheWholeGraph) {
   auto store = MapStore::create(path_);
   MapChange change;
+  change.sessions = {sessionOf(1)};
   change.nodes = {nodeOf(1), nodeOf(2), nodeOf(3)};
   change.edges = {edgeOf(1, 1, 2, EdgeKind::kDoor), edgeOf(2, 2, 3)};
   store.commit(change);
@@ -418,6 +461,43 @@ TEST_F(MapFile, MovesTheTrajectoryWithItsSubMap) {
   EXPECT_TRUE(points[0].T_map_body.isApprox(T_travel_body, 1e-9)) << "of the other sub-map";
   for (const std::size_t i : {1U, 2U}) {
     EXPECT_TRUE(points[i].T_map_body.isApprox(T_map_map * T_travel_body, 1e-9)) << i;
+    EXPECT_TRUE(points[i].T_travel_body.isApprox(T_travel_body, 1e-9)) << i;
+  }
+}
+
+TEST_F(MapFile, TellsTheTrajectoryToReadersOfPlainSqlToo) {
+  base::Random random(8);
+  MapChange change;
+  change.sessions = {sessionOf(1)};
+  for (int id = 1; id <= 5; ++id) {
+    change.nodes.push_back(nodeOf(id, somePose(random.uniform(-20, 20))));
+    change.nodes.back().T_travel_submap = somePose(random.uniform(-20, 20));
+    for (int i = 0; i < 20; ++i) {
+      change.trajectory.push_back({{1}, at(20 * id + i), {id}, somePose(random.uniform(-20, 20)), {}});
+    }
+  }
+  write(change);
+  const auto points = MapView::open(path_).trajectory();
+  ASSERT_EQ(points.size(), 100U);
+  const auto rows = PlainSqlite(path_).query(
+      "SELECT node, time_ns, x, y, z, qw, qx, qy, qz, travel_x, travel_y, travel_z, travel_qw, travel_qx, travel_qy, "
+      "travel_qz FROM trajectory ORDER BY id");
+  ASSERT_EQ(rows.size(), 100U);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto number = [&](std::size_t column) { return std::stod(rows[i].at(column)); };
+    const auto pose = [&](std::size_t c) {
+      EXPECT_GE(number(c + 3), 0.0);
+      const Eigen::Quaterniond rotation(number(c + 3), number(c + 4), number(c + 5), number(c + 6));
+      EXPECT_NEAR(rotation.norm(), 1.0, 1e-12);
+      return geometry::fromQuaternion({number(c), number(c + 1), number(c + 2)}, rotation);
+    };
+    const auto& node = change.nodes[i / 20];
+    const auto& T_travel_body = change.trajectory[i].T_travel_body;
+    const geometry::Pose3 T_map_body = node.T_map_submap * node.T_travel_submap.inverse() * T_travel_body;
+    EXPECT_EQ(rows[i].at(0), std::to_string(node.id.value));
+    EXPECT_TRUE(pose(2).isApprox(T_map_body, 1e-9)) << i;
+    EXPECT_TRUE(pose(9).isApprox(T_travel_body, 1e-9)) << i;
+    EXPECT_TRUE(points[i].T_map_body.isApprox(T_map_body, 1e-9)) << i;
     EXPECT_TRUE(points[i].T_travel_body.isApprox(T_travel_body, 1e-9)) << i;
   }
 }
@@ -503,7 +583,7 @@ TEST_F(MapFile, ShowsTheRunningSubMapOfAMapperBesideWhatIsCommitted) {
   const auto view = store.view(running, edgeOf(2, 2, 3));
   EXPECT_EQ(view.graph().nodes().size(), 3U);
   EXPECT_EQ(view.graph().getNode({3}).place, 0);
-  EXPECT_THAT(view.layersOf({3}), ElementsAre("occupancy_grid", "points"));
+  EXPECT_THAT(view.layersOf({3}), testing::IsSupersetOf({"occupancy_grid", "points"}));
   EXPECT_EQ(view.findLayer({3}, "occupancy_grid").get(), running->findLayer("occupancy_grid"));
   EXPECT_EQ(store.view().graph().nodes().size(), 2U) << "nothing of it is in the store";
 }
@@ -534,6 +614,61 @@ TEST_F(MapFile, HoldsWhatItHeldWhereACommitFails) {
   MapChange good;
   good.nodes = {nodeOf(3)};
   EXPECT_EQ(store.commit(good), 2) << "the store goes on";
+}
+
+TEST_F(MapFile, TakesNoRowThatRefersToNothing) {
+  auto store = MapStore::create(path_);
+  store.commit(twoNodes());
+  const OccupancyGrid grid;
+  auto ofNoSession = nodeOf(3);
+  ofNoSession.session = {9};
+  auto onNoFloor = nodeOf(3);
+  onNoFloor.floor = 9;
+  auto throughNoDoor = edgeOf(7, 1, 2, EdgeKind::kDoor);
+  throughNoDoor.cause = base::EntityId{9};
+  std::vector<MapChange> bad(6);
+  bad[0].nodes = {ofNoSession};
+  bad[1].nodes = {onNoFloor};
+  bad[2].edges = {throughNoDoor};
+  bad[3].entities = {entityOf(1, 9)};
+  bad[4].layers = {{base::SubMapId{9}, &grid}};
+  bad[5].events = {{at(1), {9}, "submap_begun", "s3", "{}"}};
+  for (const auto& change : bad) {
+    EXPECT_THAT(messageOf([&] { store.commit(change); }), HasSubstr("refers to"));
+    EXPECT_EQ(store.view().revision(), 1);
+  }
+}
+
+TEST_F(MapFile, ChangesRowsThatOthersReferTo) {
+  auto store = MapStore::create(path_);
+  const auto grid = gridFromText({"#"}, 0.25);
+  auto change = twoNodes();
+  change.floors = {{0, 0.0}};
+  change.nodes[0].floor = change.nodes[1].floor = 0;
+  change.entities = {entityOf(1, 1)};
+  change.edges[0].cause = base::EntityId{1};
+  change.layers = {{base::SubMapId{1}, &grid}};
+  change.trajectory = {{{1}, at(1), {1}, somePose(1), {}}};
+  store.commit(change);
+  change.trajectory.clear();
+  change.floors[0].height = 0.5;
+  change.sessions[0].distance = 99.0;
+  store.commit(change);
+  const auto view = store.view();
+  EXPECT_EQ(view.floors().at(0).height, 0.5);
+  EXPECT_EQ(view.sessions().at(0).distance, 99.0);
+  EXPECT_EQ(view.graph().getEdge({1}).cause, base::EntityId{1});
+  EXPECT_EQ(view.trajectory().size(), 1U);
+  EXPECT_NE(view.findLayer({1}, "occupancy_grid"), nullptr);
+  store.close();
+  EXPECT_THAT(PlainSqlite(path_).query("PRAGMA foreign_key_check"), IsEmpty());
+}
+
+TEST_F(MapFile, IsWholeFromTheMomentItIsThere) {
+  folder_.write("map.prodomos.part", "left by one that was killed while it made a map here");
+  const auto store = MapStore::create(path_);
+  EXPECT_EQ(MapView::open(path_).revision(), 0);
+  EXPECT_FALSE(std::filesystem::exists(path_.string() + ".part"));
 }
 
 TEST_F(MapFile, IsNeverOverwritten) {
@@ -593,24 +728,67 @@ TEST_F(MapFile, SaysWhatAFileIsThatIsNoMap) {
     EXPECT_THAT(message, HasSubstr(said));
     EXPECT_THAT(message, testing::StartsWith(path.string()));
   }
-  for (const auto& path : {text, note, missing, other, folder_.path()}) {
+  for (const auto& path : {text, note, empty, missing, other, folder_.path()}) {
     EXPECT_THROW(MapStore::openForWriting(path), base::FileError) << path;
   }
   EXPECT_EQ(PlainSqlite(other).value("SELECT count(*) FROM sqlite_master"), "1") << "left as it was";
 }
 
-TEST_F(MapFile, MayBeLeftEmptyByAProcessThatWasKilledAndIsThenWrittenTo) {
-  folder_.write("map.prodomos", "");
+/// Turns a map into what the first version of the schema would have made of it.
+void makeFirstVersion(const std::filesystem::path& path) {
+  PlainSqlite(path).query(
+      "CREATE TABLE stored AS SELECT * FROM trajectory; DROP VIEW trajectory; DROP TABLE trajectory_point;"
+      "ALTER TABLE stored RENAME TO trajectory; CREATE INDEX trajectory_by_node ON trajectory (node);"
+      "ALTER TABLE node DROP COLUMN covariance; PRAGMA user_version = 1");
+}
+
+TEST_F(MapFile, OfTheFirstSchemaIsReadAndGrown) {
+  auto change = twoNodes();
+  change.nodes[1].T_map_submap = somePose(3);
+  change.trajectory = {{{1}, at(1), {1}, somePose(1), {}}, {{1}, at(2), {2}, somePose(2), {}}};
+  write(change);
+  const auto written = MapView::open(path_).trajectory();
+  makeFirstVersion(path_);
+
+  const auto expectSame = [&](const MapView& view) {
+    EXPECT_EQ(view.graph().getNode({1}).covariance, std::nullopt);
+    const auto points = view.trajectory();
+    ASSERT_EQ(points.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(points[i].time, written[i].time);
+      EXPECT_EQ(points[i].submap, written[i].submap);
+      EXPECT_TRUE(points[i].T_map_body.isApprox(written[i].T_map_body, 1e-9));
+      EXPECT_TRUE(points[i].T_travel_body.isApprox(written[i].T_travel_body, 1e-9));
+    }
+  };
+  expectSame(MapView::open(path_));
+  EXPECT_EQ(PlainSqlite(path_).value("PRAGMA user_version"), "1") << "reading changes nothing";
+
+  const auto copy = folder_.path() / "copy.prodomos";
+  std::filesystem::copy_file(path_, copy);
+  MapStore::openForWriting(copy).close();
+  expectSame(MapView::open(copy));
   auto store = MapStore::openForWriting(path_);
-  EXPECT_EQ(store.commit(twoNodes()), 1);
+  expectSame(store.view());
+  MapChange later;
+  later.nodes = {change.nodes[1]};
+  later.nodes[0].T_map_submap = Eigen::Translation3d(1, 2, 3) * change.nodes[1].T_map_submap;
+  later.nodes[0].covariance = Matrix6::Identity();
+  store.commit(later);
+  EXPECT_EQ(store.view().graph().getNode({2}).covariance, Matrix6::Identity());
+  EXPECT_TRUE(store.view().trajectory()[1].T_map_body.translation().isApprox(
+      written[1].T_map_body.translation() + Eigen::Vector3d(1, 2, 3), 1e-9));
+  store.close();
+  EXPECT_EQ(PlainSqlite(path_).value("PRAGMA user_version"), "2");
+  EXPECT_EQ(PlainSqlite(path_).value("PRAGMA integrity_check"), "ok");
 }
 
 TEST_F(MapFile, OfANewerSchemaIsRefused) {
   write(twoNodes());
-  PlainSqlite(path_).query("PRAGMA user_version = 2");
+  PlainSqlite(path_).query("PRAGMA user_version = 3");
   for (const auto& message :
        {messageOf([&] { MapView::open(path_); }), messageOf([&] { MapStore::openForWriting(path_); })}) {
-    EXPECT_THAT(message, HasSubstr("expected a map of schema version 1 or older, found version 2"));
+    EXPECT_THAT(message, HasSubstr("expected a map of schema version 2 or older, found version 3"));
   }
 }
 

@@ -155,12 +155,12 @@ TEST_F(Replay, TakesNothingMoreOnceTheFileCannotBeWritten) {
   Mapper mapper(store, {}, liveInfo());
   sqlite3* database = nullptr;
   sqlite3_open(map("map").c_str(), &database);
-  test::rowsOf(database, "ALTER TABLE trajectory RENAME TO elsewhere");
+  test::rowsOf(database, "ALTER TABLE trajectory_point RENAME TO elsewhere");
   test::MemorySource source(shortDrive());
   EXPECT_THROW(replay(source, mapper), base::FileError);
   EXPECT_THROW(mapper.process(shortDrive().front()), base::Error);
   EXPECT_THROW(mapper.finish(), base::Error);
-  test::rowsOf(database, "ALTER TABLE elsewhere RENAME TO trajectory");
+  test::rowsOf(database, "ALTER TABLE elsewhere RENAME TO trajectory_point");
   sqlite3_close(database);
   EXPECT_TRUE(store.view().graph().nodes().empty()) << "all or nothing";
   test::MemorySource again(shortDrive());

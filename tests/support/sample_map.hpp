@@ -88,6 +88,7 @@ class SampleMap {
     constexpr double kQuarter = 1.5707963267948966;
     change.nodes = {node(1, 0, {0, 0, 0}), node(2, 0, {5, 0, 0}), node(3, 0, {5, 2.75, kQuarter}),
                     node(4, 1, {-4.5, 0, 0}, 3.0), node(5, 1, {0.5, 0, 0}, 3.0)};
+    change.nodes[1].covariance = map::Matrix6::Identity() * 0.01;
     auto predicted = node(6, 0, {9.25, 0, 0});
     predicted.kind = map::SubMapKind::kPredicted;
     predicted.readings = 0;

@@ -79,10 +79,10 @@ class SystemTest(unittest.TestCase):
 
 
 def tables(path):
-    """Every row of every table, but for the columns that hold the wall clock."""
+    """Every row of every table and view, but for the columns that hold the wall clock."""
     with sqlite3.connect(path) as database:
         rows = {}
-        for (table,) in database.execute("SELECT name FROM sqlite_master WHERE type = 'table' ORDER BY name").fetchall():
+        for (table,) in database.execute("SELECT name FROM sqlite_master WHERE type IN ('table', 'view') ORDER BY name").fetchall():
             columns = [row[1] for row in database.execute(f"PRAGMA table_info({table})")]
             kept = ", ".join(column for column in columns if (table, column) not in WALL_CLOCK)
             rows[table] = database.execute(f"SELECT {kept} FROM {table} ORDER BY 1, 2").fetchall()

@@ -24,6 +24,7 @@ struct MapChange {
   std::vector<Floor> floors;
   std::vector<Node> nodes;
   std::vector<Edge> edges;
+  std::vector<base::EdgeId> removedEdges;  ///< loops that were given up
   std::vector<Entity> entities;
   std::vector<Prediction> predictions;
   std::vector<TrajectoryPoint> trajectory;
@@ -52,6 +53,8 @@ class MapStore {
   /// the file holds what it held before.
   std::int64_t commit(const MapChange& change);
   std::optional<Checkpoint> findCheckpoint(base::SessionId session) const;
+  /// As MapView::findLayer(), of what is committed.
+  std::unique_ptr<MapLayer> findLayer(base::SubMapId submap, std::string_view typeId) const;
   /// What is committed, and, of a running mapper, the sub-map that is not yet, with the edge that leads to it.
   MapView view(std::shared_ptr<const SubMap> running = nullptr, const std::optional<Edge>& edgeTo = std::nullopt) const;
   /// Brings everything into the one file (no -wal beside it) as far as readers allow.

@@ -45,7 +45,7 @@ struct TrajectoryPoint {
   base::Time time{};
   base::SubMapId submap;
   geometry::Pose3 T_travel_body = geometry::Pose3::Identity();  ///< as travelled
-  geometry::Pose3 T_map_body = geometry::Pose3::Identity();     ///< as refined; derived on writing
+  geometry::Pose3 T_map_body = geometry::Pose3::Identity();     ///< as refined; derived on reading
 };
 
 /// Something that changed: a door opens, a prediction is settled, a node moves.

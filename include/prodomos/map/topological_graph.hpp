@@ -28,6 +28,9 @@ struct Node {
   std::optional<int> place;  ///< number of the topological place; a property of the whole graph
   geometry::Pose3 T_map_submap = geometry::Pose3::Identity();     ///< as refined: what everybody should use
   geometry::Pose3 T_travel_submap = geometry::Pose3::Identity();  ///< as travelled, never changed afterwards
+  /// Of T_map_submap relative to the map's first sub-map: (translation in metres, rotation vector in radians) in the
+  /// axes of the sub-map. None until poses are refined.
+  std::optional<Matrix6> covariance{};
   base::Time begin{};
   base::Time end{};
   double distance = 0.0;  ///< metres travelled within
@@ -43,8 +46,10 @@ struct Edge {
   base::SubMapId to;
   EdgeKind kind = EdgeKind::kTravelled;
   geometry::Pose3 T_from_to = geometry::Pose3::Identity();
-  Matrix6 information = Matrix6::Zero();  ///< of (translation in metres, rotation vector in radians) in `from`
-  std::optional<base::EntityId> cause;    ///< the door or staircase
+  /// Of deviations of the measured T_from_to in its own axes, those of `to`: translation in metres, then rotation vector
+  /// in radians. As in localization::Constraint, g2o (but for its half angles) and GTSAM (but for its order).
+  Matrix6 information = Matrix6::Zero();
+  std::optional<base::EntityId> cause;  ///< the door or staircase
 };
 
 /// What is left connected when door, stairs and lift edges are cut (002 §II-A).
