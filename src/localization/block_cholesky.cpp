@@ -381,6 +381,7 @@ BlockMatrix<D> BlockCholesky<D>::inverseBlocks() const {
   return inverse;
 }
 
+template class BlockCholesky<2>;
 template class BlockCholesky<3>;
 template class BlockCholesky<6>;
 

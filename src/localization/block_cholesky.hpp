@@ -89,6 +89,7 @@ class BlockCholesky {
   std::vector<double> updates_;  ///< a stack: what pieces have left for their parents
 };
 
+extern template class BlockCholesky<2>;
 extern template class BlockCholesky<3>;
 extern template class BlockCholesky<6>;
 

@@ -5,11 +5,17 @@
 #include "localization/descent.hpp"
 #include "localization/doubts.hpp"
 #include "localization/pose_problem.hpp"
+#include "localization/rotation_start.hpp"
 
 #include <algorithm>
 #include <chrono>
 
 namespace prodomos::localization {
+
+namespace {
+/// Times the chi² that noise alone makes: steps from such a start lead astray before they lead home.
+constexpr double kFarOff = 10.0;
+}  // namespace
 
 template <typename Pose>
 OptimizationReport optimize(Graph<Pose>& graph, const OptimizerConfig& config) {
@@ -20,6 +26,11 @@ OptimizationReport optimize(Graph<Pose>& graph, const OptimizerConfig& config) {
   OptimizationReport report{.chi2Before = problem.chi2(problem.states(), weights)};
 
   const auto doubtful = doubtfulOf(graph);
+  const auto degrees = static_cast<double>(graph.constraints.size() * kDegreesOfFreedom<Pose>);
+  if (doubtful.empty() && report.chi2Before > kFarOff * degrees) {
+    auto states = statesByRotations(problem);
+    if (problem.chi2(states, weights) < report.chi2Before) problem.setStates(std::move(states));
+  }
   if (!doubtful.empty()) Doubts<Pose>(problem, descent, doubtful, config).settle(weights);
   report.converged = descent.run(weights, config.maxIterations);
 

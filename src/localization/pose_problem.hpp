@@ -22,6 +22,15 @@ class PoseProblem {
   using State = typename Space::State;
   using Matrix = MotionMatrix<Pose>;
 
+  struct Measurement {
+    std::size_t from = 0;
+    std::size_t to = 0;
+    State measured;
+    Matrix information;
+    int place = -1;  ///< of the equations' block that ties its ends; -1 where one is fixed
+    bool isTransposed = false;
+  };
+
   /// Throws base::Error where the graph is not well formed; see optimize().
   explicit PoseProblem(const Graph<Pose>& graph);
 
@@ -31,6 +40,7 @@ class PoseProblem {
   const std::vector<BlockPlace>& places() const { return equations_.places; }
   /// -1 for a fixed vertex.
   int unknownOf(std::size_t vertex) const { return unknownOf_[vertex]; }
+  const std::vector<Measurement>& measurements() const { return measurements_; }
   const GraphIndex& index() const { return index_; }
 
   double chi2(const std::vector<State>& states, std::span<const double> weights) const;
@@ -52,15 +62,6 @@ class PoseProblem {
   void writePoses(Graph<Pose>& graph) const;
 
  private:
-  struct Measurement {
-    std::size_t from = 0;
-    std::size_t to = 0;
-    State measured;
-    Matrix information;
-    int place = -1;  ///< of the equations' block that ties its ends; -1 where one is fixed
-    bool isTransposed = false;
-  };
-
   void findPlaces();
   double error(const Measurement& measurement, const std::vector<State>& states) const;
 

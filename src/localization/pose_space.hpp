@@ -24,6 +24,7 @@ struct LinearizedError {
 
 template <>
 struct PoseSpace<geometry::Pose2> {
+  static constexpr int kAxes = 2;
   using Motion = Eigen::Vector3d;
 
   struct State {
@@ -38,6 +39,12 @@ struct PoseSpace<geometry::Pose2> {
   static State stateOf(const geometry::Pose2& pose) {
     return {{pose.x, pose.y}, pose.theta, std::cos(pose.theta), std::sin(pose.theta)};
   }
+
+  static State stateOf(const Eigen::Matrix2d& rotation, const Eigen::Vector2d& translation) {
+    return stateOf({translation.x(), translation.y(), std::atan2(rotation(1, 0), rotation(0, 0))});
+  }
+
+  static Eigen::Matrix2d rotationOf(const State& state) { return state.rotation(); }
 
   static geometry::Pose2 poseOf(const State& state) {
     return {state.translation.x(), state.translation.y(), geometry::normalizeAngle(state.theta)};
@@ -76,6 +83,7 @@ struct PoseSpace<geometry::Pose2> {
 
 template <>
 struct PoseSpace<geometry::Pose3> {
+  static constexpr int kAxes = 3;
   using Motion = Eigen::Matrix<double, 6, 1>;
 
   struct State {
@@ -88,6 +96,12 @@ struct PoseSpace<geometry::Pose3> {
     const Eigen::Quaterniond quaternion = Eigen::Quaterniond(pose.linear()).normalized();
     return {pose.translation(), quaternion, quaternion.toRotationMatrix()};
   }
+
+  static State stateOf(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation) {
+    return {translation, Eigen::Quaterniond(rotation).normalized(), rotation};
+  }
+
+  static const Eigen::Matrix3d& rotationOf(const State& state) { return state.rotation; }
 
   static geometry::Pose3 poseOf(const State& state) {
     return geometry::fromQuaternion(state.translation, state.quaternion);
