@@ -27,6 +27,7 @@ class KeyFrames {
   const KeyFrame& operator[](std::size_t i) const { return frames_[i]; }
 
   void add(KeyFrame frame);
+  void clear() { frames_.clear(); }
   /// Moves all of them: the world has become another.
   void transform(const geometry::Pose3& T_new_old);
 

@@ -51,11 +51,6 @@ map::Matrix6 adjoint(const Pose3& T_to_from) {
   return result;
 }
 
-/// The body's z-axis in the world.
-Eigen::Vector3d upOf(const Pose3& T_world_camera, const Pose3& T_body_camera) {
-  return T_world_camera.linear() * T_body_camera.linear().transpose() * Eigen::Vector3d::UnitZ();
-}
-
 void savePose(base::ByteWriter& out, const Pose3& pose) {
   out.append(pose.matrix().data(), 16 * sizeof(double));
 }
@@ -96,28 +91,32 @@ class RgbdOdometry::Implementation {
   };
 
   View look(const sensors::RgbdFrame& frame, const sensors::Mask* movers) const;
-  rgbd::Belief predict(base::Time time, const Pose3& T_body_camera, const std::optional<Pose3>& T_last_body) const;
-  Estimate begin(base::Time time, View view, const Pose3& T_body_camera);
+  rgbd::Belief predict(base::Time time, const std::optional<Pose3>& T_last_body) const;
+  Estimate begin(base::Time time, View view);
   std::optional<Pose3> guess(const View& view, const rgbd::Belief& belief) const;
   Found alignNear(const View& view, const Pose3& start, double radius, const rgbd::Belief& belief) const;
   std::optional<Found> find(const View& view, const rgbd::Belief& belief) const;
-  Estimate lost(base::Time time, const rgbd::Belief& belief, const Pose3& T_body_camera);
+  Estimate accept(base::Time time, const Found& found);
+  Estimate lost(base::Time time, const rgbd::Belief& belief);
+  void beginAgain(View view, const Pose3& T_world_camera);
   std::optional<Pose3> level();
 
   RgbdOdometryConfig config_;
   rgbd::KeyFrames keyFrames_;
   std::size_t lastReference_ = 0;
   std::uint64_t frames_ = 0;
-  int lostFrames_ = 0;
+  int lostFrames_ = 0;    ///< since the pose was known last
+  int unrecognized_ = 0;  ///< of these, those that show something
   bool isLevelled_ = false;
   Pose3 T_world_first_ = Pose3::Identity();  ///< of the first camera
   Eigen::Vector3d ahead_in_first_ = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d up_in_world_ = Eigen::Vector3d::Zero();  ///< sum of where the body's up pointed to
   base::Time lastTime_{};
-  Pose3 T_world_last_ = Pose3::Identity();  ///< of the camera
-  double lastInterval_ = 0.0;               ///< seconds; 0: there is no speed to go on with
-  Vector6 lastMotion_ = Vector6::Zero();    ///< of the camera in that interval, in its own axes
-  map::Matrix6 lastCovariance_ = map::Matrix6::Zero();
+  Pose3 T_body_camera_ = Pose3::Identity();             ///< of the last usable frame
+  Pose3 T_world_last_ = Pose3::Identity();              ///< of the body
+  double lastInterval_ = 0.0;                           ///< seconds; 0: there is no speed to go on with
+  Vector6 lastMotion_ = Vector6::Zero();                ///< of the body in that interval, in its own axes
+  map::Matrix6 lastCovariance_ = map::Matrix6::Zero();  ///< of the last pose against the key frames, body axes
 };
 
 View RgbdOdometry::Implementation::look(const sensors::RgbdFrame& frame, const sensors::Mask* movers) const {
@@ -130,36 +129,36 @@ View RgbdOdometry::Implementation::look(const sensors::RgbdFrame& frame, const s
 }
 
 /// Where the camera must be now, and how sure that is.
-rgbd::Belief RgbdOdometry::Implementation::predict(base::Time time, const Pose3& T_body_camera,
-                                                   const std::optional<Pose3>& T_last_body) const {
+rgbd::Belief RgbdOdometry::Implementation::predict(base::Time time, const std::optional<Pose3>& T_last_body) const {
   constexpr double kLongGap = 1.0;       // seconds, after which speed says nothing
   constexpr double kLeastSigma = 0.05;   // metres or radians
   constexpr double kSigmaASecond = 1.0;  // metres or radians
   constexpr double kOdometrySigma = 0.03;
+  constexpr double kOdometryShare = 0.1;
   rgbd::Belief belief;
-  const double interval = std::max(0.0, base::seconds(time - lastTime_));
   if (T_last_body && geometry::isFinite(*T_last_body)) {
-    const Pose3 T_lastCamera_camera = T_body_camera.inverse() * *T_last_body * T_body_camera;
-    belief.T_world_camera = T_world_last_ * T_lastCamera_camera;
+    belief.T_world_camera = T_world_last_ * *T_last_body * T_body_camera_;
     const double moved = T_last_body->translation().norm() + geometry::rotationAngle(*T_last_body);
-    belief.sigma.setConstant(kOdometrySigma + 0.1 * moved);
+    belief.sigma.setConstant(kOdometrySigma + kOdometryShare * moved);
     return belief;
   }
+  const double interval = std::max(0.0, base::seconds(time - lastTime_));
   const bool hasSpeed = lastInterval_ > 0.0 && interval < kLongGap && lostFrames_ == 0;
-  belief.T_world_camera =
-      hasSpeed ? Pose3(T_world_last_ * rgbd::smallMotion(lastMotion_ * (interval / lastInterval_))) : T_world_last_;
+  const Vector6 motion = hasSpeed ? Vector6(lastMotion_ * (interval / lastInterval_)) : Vector6(Vector6::Zero());
+  belief.T_world_camera = T_world_last_ * rgbd::smallMotion(motion) * T_body_camera_;
   belief.sigma.setConstant(kLeastSigma + kSigmaASecond * std::min(interval, 10.0));
   return belief;
 }
 
-RgbdOdometry::Estimate RgbdOdometry::Implementation::begin(base::Time time, View view, const Pose3& T_body_camera) {
-  const Eigen::Vector3d up = T_body_camera.linear().transpose() * Eigen::Vector3d::UnitZ();
-  ahead_in_first_ = T_body_camera.linear().transpose() * Eigen::Vector3d::UnitX();
-  const double mounted = T_body_camera.translation().z();
-  const double height = mounted > 0.05 ? mounted : config_.assumedHeight;  // a body whose origin is on the floor
-  T_world_first_ = rgbd::poseOverFloor(up, height, ahead_in_first_);
-  T_world_last_ = T_world_first_;
-  up_in_world_ = upOf(T_world_first_, T_body_camera);
+/// The first frame that is of any use.
+RgbdOdometry::Estimate RgbdOdometry::Implementation::begin(base::Time time, View view) {
+  const Eigen::Vector3d up = T_body_camera_.linear().transpose() * Eigen::Vector3d::UnitZ();
+  ahead_in_first_ = T_body_camera_.linear().transpose() * Eigen::Vector3d::UnitX();
+  constexpr double kMounted = 0.05;  // metres, from which on the body's origin must be on the floor
+  const double mounted = T_body_camera_.translation().z();
+  T_world_first_ = rgbd::poseOverFloor(up, mounted > kMounted ? mounted : config_.assumedHeight, ahead_in_first_);
+  T_world_last_ = T_world_first_ * T_body_camera_.inverse();
+  up_in_world_ = T_world_last_.linear().col(2);
   lastTime_ = time;
   Estimate estimate;
   if (view.depth.known() < kLeastDepths) {
@@ -170,8 +169,8 @@ RgbdOdometry::Estimate RgbdOdometry::Implementation::begin(base::Time time, View
     level();
   }
   estimate.isLevelled = isLevelled_;
-  estimate.T_world_body = T_world_last_ * T_body_camera.inverse();
-  estimate.covariance = map::Matrix6::Identity() * 1e-6;
+  estimate.T_world_body = T_world_last_;
+  estimate.covariance = map::Matrix6::Identity() * 1e-6;  // it is where the world is
   return estimate;
 }
 
@@ -264,79 +263,96 @@ std::optional<RgbdOdometry::Implementation::Found> RgbdOdometry::Implementation:
   return found;
 }
 
-RgbdOdometry::Estimate RgbdOdometry::Implementation::lost(base::Time time, const rgbd::Belief& belief,
-                                                          const Pose3& T_body_camera) {
+RgbdOdometry::Estimate RgbdOdometry::Implementation::lost(base::Time time, const rgbd::Belief& belief) {
   ++lostFrames_;
-  T_world_last_ = belief.T_world_camera;
+  T_world_last_ = belief.T_world_camera * T_body_camera_.inverse();
   lastTime_ = time;
   lastInterval_ = 0.0;
   lastCovariance_.setZero();
   Estimate estimate;
   estimate.isLost = true;
   estimate.isLevelled = isLevelled_;
-  estimate.T_world_body = T_world_last_ * T_body_camera.inverse();
-  const map::Matrix6 toBody = adjoint(T_body_camera);
+  estimate.T_world_body = T_world_last_;
+  const map::Matrix6 toBody = adjoint(T_body_camera_);
   estimate.covariance = toBody * belief.sigma.cwiseAbs2().asDiagonal() * toBody.transpose();
+  return estimate;
+}
+
+/// Recognises nothing for so long that this must be another place: goes on from where it is believed to be.
+void RgbdOdometry::Implementation::beginAgain(View view, const Pose3& T_world_camera) {
+  keyFrames_.clear();
+  view.depth.computeNormals();
+  keyFrames_.add({frames_, std::move(view), T_world_camera});
+  lastReference_ = 0;
+  lostFrames_ = 0;
+  unrecognized_ = 0;
+}
+
+/// Takes over a pose that was found: the step since the last one, and its covariance.
+RgbdOdometry::Estimate RgbdOdometry::Implementation::accept(base::Time time, const Found& found) {
+  const Pose3 T_world_body = found.alignment.T_world_camera * T_body_camera_.inverse();
+  const Pose3 T_last_body = T_world_last_.inverse() * T_world_body;
+  const Eigen::AngleAxisd turn(T_last_body.linear());
+  lastInterval_ = lostFrames_ == 0 ? std::max(0.0, base::seconds(time - lastTime_)) : 0.0;
+  lastMotion_ << T_last_body.translation(), turn.angle() * turn.axis();
+  lastTime_ = time;
+  T_world_last_ = T_world_body;
+  lastReference_ = found.best;
+  up_in_world_ += T_world_body.linear().col(2);
+  lostFrames_ = 0;
+  unrecognized_ = 0;
+  const map::Matrix6 toBody = adjoint(T_body_camera_);
+  const map::Matrix6 covariance =
+      toBody * found.alignment.information.ldlt().solve(map::Matrix6::Identity()) * toBody.transpose();
+  const map::Matrix6 back = adjoint(T_last_body.inverse());
+  Estimate estimate;
+  estimate.covariance = covariance + back * lastCovariance_ * back.transpose();
+  lastCovariance_ = covariance;
   return estimate;
 }
 
 RgbdOdometry::Estimate RgbdOdometry::Implementation::track(base::Time time, const sensors::RgbdFrame& frame,
                                                            const sensors::Mask* movers,
                                                            const std::optional<Pose3>& T_last_body) {
-  const Pose3& T_body_camera = frame.T_body_camera;
-  const std::uint64_t number = frames_;
-  const rgbd::Belief belief = predict(time, T_body_camera, T_last_body);
-  if (!isUsable(frame, movers)) {
-    return lost(time, belief, T_body_camera);
-  }
+  const bool usable = isUsable(frame, movers);
+  if (usable) T_body_camera_ = frame.T_body_camera;
+  const rgbd::Belief belief = predict(time, T_last_body);
+  if (!usable) return lost(time, belief);
   View view = look(frame, movers);
-  if (keyFrames_.empty()) {
-    auto estimate = begin(time, std::move(view), T_body_camera);
-    ++frames_;
+  ++frames_;
+  if (keyFrames_.empty()) return begin(time, std::move(view));
+  const bool isSurface = view.depth.known() >= kLeastDepths;
+  if (view.points.size() < kLeastPoints && !isSurface) return lost(time, belief);
+
+  const auto found = find(view, belief);
+  if (!found) {
+    constexpr int kLostForGood = 10;  // frames
+    const auto estimate = lost(time, belief);
+    if (++unrecognized_ >= kLostForGood && isSurface) beginAgain(std::move(view), belief.T_world_camera);
     return estimate;
   }
-  ++frames_;
-  if (view.points.size() < kLeastPoints && view.depth.known() < kLeastDepths) return lost(time, belief, T_body_camera);
-  const auto found = find(view, belief);
-  if (!found) return lost(time, belief, T_body_camera);
-
-  const Pose3 T_last_camera = T_world_last_.inverse() * found->alignment.T_world_camera;
-  const Eigen::AngleAxisd turn(T_last_camera.linear());
-  lastInterval_ = lostFrames_ == 0 ? std::max(0.0, base::seconds(time - lastTime_)) : 0.0;
-  lastMotion_ << T_last_camera.translation(), turn.angle() * turn.axis();
-  lastTime_ = time;
-  T_world_last_ = found->alignment.T_world_camera;
-  lastReference_ = found->best;
-  up_in_world_ += upOf(T_world_last_, T_body_camera);
-  lostFrames_ = 0;
-  Estimate estimate;
-  const map::Matrix6 covariance = found->alignment.information.ldlt().solve(map::Matrix6::Identity());
-  const map::Matrix6 back = adjoint(T_last_camera.inverse());
-  const map::Matrix6 step = covariance + back * lastCovariance_ * back.transpose();
-  const map::Matrix6 toBody = adjoint(T_body_camera);
-  estimate.covariance = toBody * step * toBody.transpose();
-  lastCovariance_ = covariance;
-
+  Estimate estimate = accept(time, *found);
   constexpr double kNewKeyFrame = 0.75;
   constexpr double kGood = 0.9;  // what came out blurred or doubtful is nothing to align with
-  if (found->overlap < kNewKeyFrame && found->alignment.quality() > kGood && view.depth.known() >= kLeastDepths) {
+  if (isSurface && found->overlap < kNewKeyFrame && found->alignment.quality() > kGood) {
     view.depth.computeNormals();
-    keyFrames_.add({number, std::move(view), T_world_last_});
+    keyFrames_.add({frames_, std::move(view), found->alignment.T_world_camera});
     lastReference_ = keyFrames_.size() - 1;
     estimate.T_world_before = level();
   }
   estimate.isLevelled = isLevelled_;
-  estimate.T_world_body = T_world_last_ * T_body_camera.inverse();
+  estimate.T_world_body = T_world_last_;
   return estimate;
 }
 
 void RgbdOdometry::Implementation::save(base::ByteWriter& out) const {
   keyFrames_.save(out);
-  out << static_cast<std::uint64_t>(lastReference_) << frames_ << lostFrames_ << isLevelled_;
+  out << static_cast<std::uint64_t>(lastReference_) << frames_ << lostFrames_ << unrecognized_ << isLevelled_;
   savePose(out, T_world_first_);
   out.append(ahead_in_first_.data(), 3 * sizeof(double));
   out.append(up_in_world_.data(), 3 * sizeof(double));
   out << base::toNanoseconds(lastTime_);
+  savePose(out, T_body_camera_);
   savePose(out, T_world_last_);
   out << lastInterval_;
   out.append(lastMotion_.data(), 6 * sizeof(double));
@@ -346,11 +362,12 @@ void RgbdOdometry::Implementation::save(base::ByteWriter& out) const {
 void RgbdOdometry::Implementation::load(base::ByteReader& in) {
   keyFrames_.load(in);
   lastReference_ = static_cast<std::size_t>(in.read<std::uint64_t>());
-  in >> frames_ >> lostFrames_ >> isLevelled_;
+  in >> frames_ >> lostFrames_ >> unrecognized_ >> isLevelled_;
   loadPose(in, T_world_first_);
   in.take(ahead_in_first_.data(), 3 * sizeof(double));
   in.take(up_in_world_.data(), 3 * sizeof(double));
   lastTime_ = base::fromNanoseconds(in.read<std::int64_t>());
+  loadPose(in, T_body_camera_);
   loadPose(in, T_world_last_);
   in >> lastInterval_;
   in.take(lastMotion_.data(), 6 * sizeof(double));
