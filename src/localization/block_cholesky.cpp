@@ -101,9 +101,8 @@ bool isWorthJoining(std::size_t columns, std::size_t room, std::size_t nonzeros)
 
 }  // namespace
 
-template <int D>
-BlockCholesky<D>::BlockCholesky(int size, const std::vector<BlockPlace>& places)
-    : position_(static_cast<std::size_t>(size)) {
+Elimination::Elimination(int size, const std::vector<BlockPlace>& places)
+    : position_(static_cast<std::size_t>(size)), places_(places.size()) {
   auto order = minimumDegreeOrder(size, places);
   const auto place = [&] {
     for (int at = 0; at < size; ++at) position_[static_cast<std::size_t>(order[static_cast<std::size_t>(at)])] = at;
@@ -118,11 +117,9 @@ BlockCholesky<D>::BlockCholesky(int size, const std::vector<BlockPlace>& places)
   findSupernodes(factorRows(laterNeighbours(position_, places)));
   linkSupernodes();
   addEntries(places);
-  offDiagonalCount_ = places.size();
 }
 
-template <int D>
-void BlockCholesky<D>::findSupernodes(std::vector<std::vector<int>> rowsOfColumn) {
+void Elimination::findSupernodes(std::vector<std::vector<int>> rowsOfColumn) {
   for (std::size_t column = 0; column < rowsOfColumn.size(); ++column) {
     Supernode node{.first = static_cast<int>(column), .columns = 1, .rows = std::move(rowsOfColumn[column])};
     node.nonzeros = blocksIn(1, node.rows.size());
@@ -142,23 +139,19 @@ void BlockCholesky<D>::findSupernodes(std::vector<std::vector<int>> rowsOfColumn
   }
 }
 
-template <int D>
-void BlockCholesky<D>::linkSupernodes() {
+void Elimination::linkSupernodes() {
   supernodeOf_.resize(position_.size());
-  std::size_t factorSize = 0;
   for (std::size_t i = 0; i < supernodes_.size(); ++i) {
     auto& node = supernodes_[i];
     std::fill_n(supernodeOf_.begin() + node.first, node.columns, static_cast<int>(i));
-    node.panel = factorSize;
-    factorSize += static_cast<std::size_t>(node.columns * D) * static_cast<std::size_t>(node.size() * D);
+    node.panel = factorBlocks_;
+    factorBlocks_ += static_cast<std::size_t>(node.columns) * static_cast<std::size_t>(node.size());
   }
-  factor_.resize(factorSize);
   std::size_t top = 0;
-  std::size_t highest = 0;
-  const auto updateSize = [](const Supernode& node) { return node.rows.size() * node.rows.size() * D * D; };
+  const auto updateSize = [](const Supernode& node) { return node.rows.size() * node.rows.size(); };
   for (std::size_t i = 0; i < supernodes_.size(); ++i) {
     auto& node = supernodes_[i];
-    highest = std::max(highest, top + updateSize(node));
+    updateBlocks_ = std::max(updateBlocks_, top + updateSize(node));
     for (const int child : node.children) top -= updateSize(supernodes_[static_cast<std::size_t>(child)]);
     top += updateSize(node);
     if (node.rows.empty()) continue;
@@ -175,11 +168,9 @@ void BlockCholesky<D>::linkSupernodes() {
       }
     }
   }
-  updates_.resize(highest);
 }
 
-template <int D>
-void BlockCholesky<D>::addEntries(const std::vector<BlockPlace>& places) {
+void Elimination::addEntries(const std::vector<BlockPlace>& places) {
   for (std::size_t block = 0; block < position_.size(); ++block) {
     auto& node = supernodes_[static_cast<std::size_t>(supernodeOf_[static_cast<std::size_t>(position_[block])])];
     const int at = position_[block] - node.first;
@@ -201,10 +192,16 @@ void BlockCholesky<D>::addEntries(const std::vector<BlockPlace>& places) {
 }
 
 template <int D>
+BlockCholesky<D>::BlockCholesky(std::shared_ptr<const Elimination> elimination)
+    : elimination_(std::move(elimination)),
+      factor_(elimination_->factorBlocks() * D * D),
+      updates_(elimination_->updateBlocks() * D * D) {}
+
+template <int D>
 bool BlockCholesky<D>::factorize(const BlockMatrix<D>& matrix, double damping) {
   std::ranges::fill(factor_, 0.0);
   double* top = updates_.data();
-  for (const auto& node : supernodes_) {
+  for (const auto& node : elimination_->supernodes()) {
     // The children's updates are the last on the stack. What this piece leaves is added up above them, then takes
     // their place.
     const auto size = node.rows.size() * node.rows.size() * D * D;
@@ -212,7 +209,7 @@ bool BlockCholesky<D>::factorize(const BlockMatrix<D>& matrix, double damping) {
     std::fill_n(update, size, 0.0);
     double* bottom = top;
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
-      const auto& from = supernodes_[static_cast<std::size_t>(*child)];
+      const auto& from = elimination_->supernodes()[static_cast<std::size_t>(*child)];
       bottom -= from.rows.size() * from.rows.size() * D * D;
       addUpdate(from, bottom, node, update);
     }
@@ -226,7 +223,7 @@ bool BlockCholesky<D>::factorize(const BlockMatrix<D>& matrix, double damping) {
 
 template <int D>
 void BlockCholesky<D>::assemble(const Supernode& node, const BlockMatrix<D>& matrix, double damping) {
-  Panel panel(factor_.data() + node.panel, node.size() * D, node.columns * D);
+  Panel panel(factor_.data() + node.panel * D * D, node.size() * D, node.columns * D);
   for (const auto& entry : node.entries) {
     auto target = panel.template block<D, D>(entry.row * D, entry.column * D);
     const auto block = static_cast<std::size_t>(entry.block);
@@ -246,7 +243,7 @@ void BlockCholesky<D>::addUpdate(const Supernode& child, const double* update, c
                                  double* parentUpdate) {
   const auto count = child.inParent.size();
   const auto stride = count * D;
-  double* const panel = factor_.data() + parent.panel;
+  double* const panel = factor_.data() + parent.panel * D * D;
   const auto panelStride = static_cast<std::size_t>(parent.size() * D);
   const auto updateStride = parent.rows.size() * D;
   for (std::size_t column = 0; column < count; ++column) {
@@ -271,7 +268,7 @@ template <int D>
 bool BlockCholesky<D>::eliminate(const Supernode& node, double* update) {
   const Eigen::Index columns = node.columns * D;
   const auto rows = static_cast<Eigen::Index>(node.rows.size()) * D;
-  Panel panel(factor_.data() + node.panel, columns + rows, columns);
+  Panel panel(factor_.data() + node.panel * D * D, columns + rows, columns);
   Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> head = panel.topRows(columns);
   auto tail = panel.bottomRows(rows);
   if (node.columns == 1) {
@@ -297,14 +294,14 @@ bool BlockCholesky<D>::eliminate(const Supernode& node, double* update) {
 template <int D>
 void BlockCholesky<D>::solve(Eigen::VectorXd& x) const {
   Eigen::VectorXd ordered(x.size());
-  for (std::size_t block = 0; block < position_.size(); ++block) {
-    ordered.segment<D>(position_[block] * D) = x.segment<D>(static_cast<Eigen::Index>(block) * D);
+  for (std::size_t block = 0; block < elimination_->position().size(); ++block) {
+    ordered.segment<D>(elimination_->position()[block] * D) = x.segment<D>(static_cast<Eigen::Index>(block) * D);
   }
   Eigen::VectorXd below;
   const auto panelOf = [&](const Supernode& node) {
-    return ConstPanel(factor_.data() + node.panel, node.size() * D, node.columns * D);
+    return ConstPanel(factor_.data() + node.panel * D * D, node.size() * D, node.columns * D);
   };
-  for (const auto& node : supernodes_) {
+  for (const auto& node : elimination_->supernodes()) {
     const auto panel = panelOf(node);
     auto head = ordered.segment(node.first * D, node.columns * D);
     panel.topRows(node.columns * D).template triangularView<Eigen::Lower>().solveInPlace(head);
@@ -313,7 +310,7 @@ void BlockCholesky<D>::solve(Eigen::VectorXd& x) const {
       ordered.segment<D>(node.rows[i] * D) -= below.segment<D>(static_cast<Eigen::Index>(i) * D);
     }
   }
-  for (auto at = supernodes_.rbegin(); at != supernodes_.rend(); ++at) {
+  for (auto at = elimination_->supernodes().rbegin(); at != elimination_->supernodes().rend(); ++at) {
     const auto panel = panelOf(*at);
     below.resize(panel.rows() - panel.cols());
     for (std::size_t i = 0; i < at->rows.size(); ++i) {
@@ -323,8 +320,8 @@ void BlockCholesky<D>::solve(Eigen::VectorXd& x) const {
     head.noalias() -= panel.bottomRows(below.size()).transpose() * below;
     panel.topRows(at->columns * D).template triangularView<Eigen::Lower>().transpose().solveInPlace(head);
   }
-  for (std::size_t block = 0; block < position_.size(); ++block) {
-    x.segment<D>(static_cast<Eigen::Index>(block) * D) = ordered.segment<D>(position_[block] * D);
+  for (std::size_t block = 0; block < elimination_->position().size(); ++block) {
+    x.segment<D>(static_cast<Eigen::Index>(block) * D) = ordered.segment<D>(elimination_->position()[block] * D);
   }
 }
 
@@ -342,15 +339,15 @@ void BlockCholesky<D>::gather(const Eigen::MatrixXd& parent, const std::vector<i
 template <int D>
 BlockMatrix<D> BlockCholesky<D>::inverseBlocks() const {
   BlockMatrix<D> inverse;
-  inverse.diagonal.resize(position_.size());
-  inverse.offDiagonal.resize(offDiagonalCount_);
+  inverse.diagonal.resize(elimination_->position().size());
+  inverse.offDiagonal.resize(elimination_->places());
   // Of each piece the inverse's dense part, from the roots down; let go when the last child has drawn on it.
-  std::vector<Eigen::MatrixXd> parts(supernodes_.size());
-  for (std::size_t i = supernodes_.size(); i-- > 0;) {
-    const auto& node = supernodes_[i];
+  std::vector<Eigen::MatrixXd> parts(elimination_->supernodes().size());
+  for (std::size_t i = elimination_->supernodes().size(); i-- > 0;) {
+    const auto& node = elimination_->supernodes()[i];
     const Eigen::Index columns = node.columns * D;
     const Eigen::Index rows = node.size() * D - columns;
-    const ConstPanel panel(factor_.data() + node.panel, columns + rows, columns);
+    const ConstPanel panel(factor_.data() + node.panel * D * D, columns + rows, columns);
     auto& part = parts[i];
     part = Eigen::MatrixXd::Zero(columns + rows, columns + rows);
     const auto head = panel.topRows(columns).template triangularView<Eigen::Lower>();
@@ -364,7 +361,7 @@ BlockMatrix<D> BlockCholesky<D>::inverseBlocks() const {
       part.bottomLeftCorner(rows, columns).noalias() = -below * gain;
       part.topRightCorner(columns, rows) = part.bottomLeftCorner(rows, columns).transpose();
       part.topLeftCorner(columns, columns).noalias() -= gain.transpose() * part.bottomLeftCorner(rows, columns);
-      auto& parent = supernodes_[static_cast<std::size_t>(node.parent)];
+      auto& parent = elimination_->supernodes()[static_cast<std::size_t>(node.parent)];
       if (parent.children.front() == static_cast<int>(i)) parts[static_cast<std::size_t>(node.parent)].resize(0, 0);
     }
     for (const auto& entry : node.entries) {

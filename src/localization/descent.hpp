@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -17,8 +18,8 @@ namespace prodomos::localization {
 template <typename Pose>
 class Descent {
  public:
-  Descent(PoseProblem<Pose>& problem, const OptimizerConfig& config)
-      : problem_(problem), config_(config), cholesky_(problem.unknowns(), problem.places()) {}
+  Descent(PoseProblem<Pose>& problem, std::shared_ptr<const Elimination> elimination, const OptimizerConfig& config)
+      : problem_(problem), config_(config), cholesky_(std::move(elimination)) {}
 
   /// Moves the problem's states for so many steps, or until chi² hardly falls any more: true.
   bool run(std::span<const double> weights, int steps) {

@@ -14,7 +14,7 @@ template <typename Pose>
 struct Covariances<Pose>::Impl {
   static constexpr int kDimension = kDegreesOfFreedom<Pose>;
 
-  explicit Impl(const Graph<Pose>& graph) : problem(graph), cholesky(problem.unknowns(), problem.places()) {
+  explicit Impl(const Graph<Pose>& graph) : problem(graph), cholesky(problem.findElimination()) {
     problem.linearize(std::vector<double>(graph.constraints.size(), 1.0));
     if (!cholesky.factorize(problem.matrix())) {
       throw base::Error(base::expectedFound("covariance of a pose graph",

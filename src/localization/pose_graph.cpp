@@ -21,14 +21,15 @@ template <typename Pose>
 OptimizationReport optimize(Graph<Pose>& graph, const OptimizerConfig& config) {
   const auto begin = std::chrono::steady_clock::now();
   PoseProblem<Pose> problem(graph);
-  Descent<Pose> descent(problem, config);
+  const auto elimination = problem.findElimination();
+  Descent<Pose> descent(problem, elimination, config);
   std::vector<double> weights(graph.constraints.size(), 1.0);
   OptimizationReport report{.chi2Before = problem.chi2(problem.states(), weights)};
 
   const auto doubtful = doubtfulOf(graph);
   const auto degrees = static_cast<double>(graph.constraints.size() * kDegreesOfFreedom<Pose>);
   if (doubtful.empty() && report.chi2Before > kFarOff * degrees) {
-    auto states = statesByRotations(problem);
+    auto states = statesByRotations(problem, elimination);
     if (problem.chi2(states, weights) < report.chi2Before) problem.setStates(std::move(states));
   }
   if (!doubtful.empty()) Doubts<Pose>(problem, descent, doubtful, config).settle(weights);

@@ -8,6 +8,7 @@
 #include "localization/graph_index.hpp"
 #include "localization/pose_space.hpp"
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,10 @@ class PoseProblem {
   const std::vector<State>& states() const { return states_; }
   /// Where the equations have blocks off the diagonal: one for each pair of free vertices that constraints tie.
   const std::vector<BlockPlace>& places() const { return equations_.places; }
+  /// Of the equations' blocks; takes as long as a step or two.
+  std::shared_ptr<const Elimination> findElimination() const {
+    return std::make_shared<const Elimination>(unknowns_, equations_.places);
+  }
   /// -1 for a fixed vertex.
   int unknownOf(std::size_t vertex) const { return unknownOf_[vertex]; }
   const std::vector<Measurement>& measurements() const { return measurements_; }

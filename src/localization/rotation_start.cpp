@@ -78,7 +78,8 @@ class LinearGraph {
 }  // namespace
 
 template <typename Pose>
-std::vector<typename PoseProblem<Pose>::State> statesByRotations(const PoseProblem<Pose>& problem) {
+std::vector<typename PoseProblem<Pose>::State> statesByRotations(
+    const PoseProblem<Pose>& problem, const std::shared_ptr<const Elimination>& elimination) {
   using Space = PoseSpace<Pose>;
   constexpr int N = Space::kAxes;
   constexpr int kAngles = kDegreesOfFreedom<Pose> - N;
@@ -92,7 +93,7 @@ std::vector<typename PoseProblem<Pose>::State> statesByRotations(const PoseProbl
     transposed.push_back(Space::rotationOf(state).transpose());
     positions.push_back(state.translation);
   }
-  BlockCholesky<N> cholesky(problem.unknowns(), problem.places());
+  BlockCholesky<N> cholesky(elimination);
 
   LinearGraph<N, N> rotations(problem.unknowns(), problem.places());
   for (const auto& m : problem.measurements()) {
@@ -122,7 +123,9 @@ std::vector<typename PoseProblem<Pose>::State> statesByRotations(const PoseProbl
   return states;
 }
 
-template std::vector<PoseProblem<geometry::Pose2>::State> statesByRotations(const PoseProblem<geometry::Pose2>&);
-template std::vector<PoseProblem<geometry::Pose3>::State> statesByRotations(const PoseProblem<geometry::Pose3>&);
+template std::vector<PoseProblem<geometry::Pose2>::State> statesByRotations(const PoseProblem<geometry::Pose2>&,
+                                                                            const std::shared_ptr<const Elimination>&);
+template std::vector<PoseProblem<geometry::Pose3>::State> statesByRotations(const PoseProblem<geometry::Pose3>&,
+                                                                            const std::shared_ptr<const Elimination>&);
 
 }  // namespace prodomos::localization

@@ -4,6 +4,7 @@
 
 #include "localization/pose_problem.hpp"
 
+#include <memory>
 #include <vector>
 
 namespace prodomos::localization {
@@ -12,6 +13,7 @@ namespace prodomos::localization {
 /// least squares over matrices, each then brought to the nearest rotation (chordal relaxation), and with these all
 /// positions by least squares (Carlone et al., ICRA 2015). Two linear systems, of blocks of 2 or 3.
 template <typename Pose>
-std::vector<typename PoseProblem<Pose>::State> statesByRotations(const PoseProblem<Pose>& problem);
+std::vector<typename PoseProblem<Pose>::State> statesByRotations(const PoseProblem<Pose>& problem,
+                                                                 const std::shared_ptr<const Elimination>& elimination);
 
 }  // namespace prodomos::localization
