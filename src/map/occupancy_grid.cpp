@@ -23,17 +23,25 @@ OccupancyGrid::Cell logOdds(double probability) {
   return static_cast<OccupancyGrid::Cell>(units != 0 ? units : nats < 0.0 ? -1 : 1);
 }
 
+using MissTable = std::array<OccupancyGrid::Cell, 256>;
+
+/// What a miss makes of each cell, by the cell's byte.
+MissTable missTable(int miss, int low) {
+  using Limits = std::numeric_limits<OccupancyGrid::Cell>;
+  MissTable table{};
+  for (int cell = Limits::min(); cell <= Limits::max(); ++cell) {
+    const int before = cell == OccupancyGrid::kUnknownCell ? 0 : cell;
+    table[static_cast<std::uint8_t>(cell)] = static_cast<OccupancyGrid::Cell>(std::max(before + miss, low));
+  }
+  return table;
+}
+
 /// Lowers cells that beams pass.
 class Misser {
  public:
   using Cell = OccupancyGrid::Cell;
 
-  Misser(Cell miss, Cell low) : miss_(miss), low_(low) {
-    for (int cell = std::numeric_limits<Cell>::min(); cell <= std::numeric_limits<Cell>::max(); ++cell) {
-      const int before = cell == OccupancyGrid::kUnknownCell ? 0 : cell;
-      missed_[static_cast<std::uint8_t>(cell)] = static_cast<Cell>(std::max<int>(before + miss, low));
-    }
-  }
+  Misser(const MissTable& missed, Cell miss, Cell low) : missed_(missed), miss_(miss), low_(low) {}
 
   void operator()(Cell* cells, int count) const {
     if (count <= 2) {
@@ -62,7 +70,7 @@ class Misser {
     std::memcpy(cells, &after, sizeof after);
   }
 
-  std::array<Cell, 256> missed_{};
+  const MissTable& missed_;
   Cell miss_;
   Cell low_;
 };
@@ -112,7 +120,8 @@ OccupancyGrid::OccupancyGrid(const OccupancyGridConfig& config)
       hit_(logOdds(config.hit)),
       miss_(logOdds(config.miss)),
       low_(logOdds(config.clampLow)),
-      high_(logOdds(config.clampHigh)) {}
+      high_(logOdds(config.clampHigh)),
+      missed_(missTable(miss_, low_)) {}
 
 double OccupancyGrid::probability(geometry::CellIndex index) const {
   const Cell value = cell(index);
@@ -180,7 +189,7 @@ void OccupancyGrid::insert(const Eigen::Vector2d& origin, std::span<const Beam> 
 
   // A cell with an end point counts as hit alone: its value is kept aside while the beams pass.
   for (auto& hit : hits_) hit.before = row(hit.cell.y)[hit.cell.x - box_.first.x];
-  const Misser miss(miss_, low_);
+  const Misser miss(missed_, miss_, low_);
   fan_.trace(
       start, ends_, [cells = cells_.data(), box = box_, width = box_.width(), &miss](int y, int first, int last) {
         miss(cells + static_cast<std::ptrdiff_t>(y - box.first.y) * width + (first - box.first.x), last - first + 1);

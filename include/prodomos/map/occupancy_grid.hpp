@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <span>
@@ -88,6 +89,7 @@ class OccupancyGrid final : public MapLayer {
   Cell miss_;
   Cell low_;
   Cell high_;
+  std::array<Cell, 256> missed_;  // by a cell's byte: what a miss makes of it
   geometry::CellBox box_;
   std::vector<Cell> cells_;
 
