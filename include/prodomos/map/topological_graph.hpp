@@ -46,8 +46,8 @@ struct Edge {
   base::SubMapId to;
   EdgeKind kind = EdgeKind::kTravelled;
   geometry::Pose3 T_from_to = geometry::Pose3::Identity();
-  /// Of deviations of the measured T_from_to in its own axes, those of `to`: translation in metres, then rotation vector
-  /// in radians. As in localization::Constraint, g2o (but for its half angles) and GTSAM (but for its order).
+  /// Of deviations of the measured T_from_to in its own axes, those of `to`: translation in metres, then rotation
+  /// vector in radians. As in localization::Constraint, g2o (but for its half angles) and GTSAM (but for its order).
   Matrix6 information = Matrix6::Zero();
   std::optional<base::EntityId> cause;  ///< the door or staircase
 };
