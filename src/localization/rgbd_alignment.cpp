@@ -70,6 +70,13 @@ struct Counts {
   int known = 0;
 };
 
+/// Standard deviation of the difference of two depths, metres.
+double depthNoise(double one, float other) {
+  const double a = depthSigma(one);
+  const double b = depthSigma(static_cast<double>(other));
+  return std::sqrt(a * a + b * b);
+}
+
 /// Cauchy's weight of a residual in standard deviations.
 double robustWeight(double squared) {
   constexpr double kScale = 2.0;
@@ -99,7 +106,7 @@ Counts addMatches(const View& current, const Reference& reference, const Pose3& 
     }
     if (!(to.depth > 0.0F)) continue;
     const double depthOff = p.z() - static_cast<double>(to.depth);
-    const double noise = std::hypot(depthSigma(p.z()), depthSigma(static_cast<double>(from.depth)));
+    const double noise = depthNoise(p.z(), from.depth);
     const double depthWeight = robustWeight(depthOff * depthOff / (noise * noise)) / (noise * noise);
     sum.add(pointBy.row(2).transpose(), depthOff, depthWeight);
   }
@@ -125,7 +132,7 @@ Counts addDepths(const View& current, const Reference& reference, const Pose3& T
       if (seen == nullptr || seen->normalZ == 0.0F) continue;
       // What lies behind what was seen from there may be new: it says nothing for or against the pose.
       const double hidden = p_in_reference.z() - static_cast<double>(seen->depth);
-      const double noise = std::hypot(depthSigma(p.z()), depthSigma(static_cast<double>(seen->depth)));
+      const double noise = depthNoise(p.z(), seen->depth);
       if (hidden > gate + 0.1 + 3.0 * noise) continue;
       ++counts.known;
       const Eigen::Vector3d normal = normalOf(*seen);

@@ -13,12 +13,13 @@ namespace {
 
 /// Depths of one block belong together within this share of its centre's.
 constexpr float kSameSurface = 0.02F;
+constexpr int kMostPixels = 20000;
 
 }  // namespace
 
 DepthGrid::DepthGrid(const Camera& camera, const sensors::Image<float>& depth, const sensors::Mask* movers,
-                     double maxDepth) {
-  resize(camera);
+                     double maxDepth, const DepthGrid* earlier) {
+  resize(camera, earlier);
   const auto most = static_cast<float>(maxDepth);
   const auto usable = [most](float z) { return z > 0.0F && z < most; };  // false for NaN
   for (int y = 0; y < height_; ++y) {
@@ -46,12 +47,19 @@ DepthGrid::DepthGrid(const Camera& camera, const sensors::Image<float>& depth, c
   }
 }
 
-void DepthGrid::resize(const Camera& camera) {
+void DepthGrid::resize(const Camera& camera, const DepthGrid* earlier) {
   camera_ = camera;
   width_ = camera.width() / kBlock;
   height_ = camera.height() / kBlock;
   known_ = 0;
   cells_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), Cell{});
+  if (earlier != nullptr && earlier->camera_ == camera) {
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      cells_[i].rayX = earlier->cells_[i].rayX;
+      cells_[i].rayY = earlier->cells_[i].rayY;
+    }
+    return;
+  }
   constexpr double kCenter = 0.5 * (kBlock - 1);
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
@@ -127,12 +135,18 @@ void DepthGrid::load(base::ByteReader& in) {
   for (double& k : intrinsics.distortion) in >> k;
   const int width = in.read<int>();
   const int height = in.read<int>();
-  resize(Camera(intrinsics, width, height));
+  if (width < 0 || height < 0 || width > kMostPixels || height > kMostPixels) {
+    throw base::Error(base::expectedFound("a saved depth image",
+                                          "at most " + std::to_string(kMostPixels) + " pixels a side",
+                                          std::to_string(width) + "x" + std::to_string(height)));
+  }
+  resize(Camera(intrinsics, width, height), nullptr);
   std::vector<float> depths;
   in >> depths;
-  if (depths.size() != cells_.size())
-    throw base::Error("expected the depths of " + std::to_string(cells_.size()) + " cells, found " +
-                      std::to_string(depths.size()));
+  if (depths.size() != cells_.size()) {
+    throw base::Error(base::expectedFound("a saved depth image", std::to_string(cells_.size()) + " cells",
+                                          std::to_string(depths.size())));
+  }
   for (std::size_t i = 0; i < depths.size(); ++i) {
     cells_[i].depth = depths[i];
     known_ += depths[i] > 0.0F ? 1 : 0;

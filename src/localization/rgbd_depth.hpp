@@ -24,8 +24,10 @@ class DepthGrid {
   };
 
   DepthGrid() = default;
-  /// Takes `movers` as not known, and so what lies further than `maxDepth` metres.
-  DepthGrid(const Camera& camera, const sensors::Image<float>& depth, const sensors::Mask* movers, double maxDepth);
+  /// Takes `movers` as not known, and so what lies further than `maxDepth` metres. `earlier`: a grid whose rays are
+  /// taken over where its camera is the same; may be null.
+  DepthGrid(const Camera& camera, const sensors::Image<float>& depth, const sensors::Mask* movers, double maxDepth,
+            const DepthGrid* earlier);
 
   const Camera& camera() const { return camera_; }
   int width() const { return width_; }
@@ -43,7 +45,7 @@ class DepthGrid {
   void load(base::ByteReader& in);
 
  private:
-  void resize(const Camera& camera);
+  void resize(const Camera& camera, const DepthGrid* earlier);
 
   Camera camera_;
   int width_ = 0;

@@ -124,7 +124,8 @@ View RgbdOdometry::Implementation::look(const sensors::RgbdFrame& frame, const s
   View view;
   view.camera = rgbd::Camera(frame.camera, frame.depth.width(), frame.depth.height());
   view.points = rgbd::findKeyPoints(view.camera, frame, masked, config_.keyPoints, config_.maxDepth);
-  view.depth = rgbd::DepthGrid(view.camera, frame.depth, masked, config_.maxDepth);
+  const auto* earlier = keyFrames_.empty() ? nullptr : &keyFrames_[keyFrames_.size() - 1].view.depth;
+  view.depth = rgbd::DepthGrid(view.camera, frame.depth, masked, config_.maxDepth, earlier);
   return view;
 }
 
