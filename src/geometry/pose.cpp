@@ -73,6 +73,16 @@ double rotationAngle(const Pose3& pose) {
   return Eigen::AngleAxisd(pose.linear()).angle();
 }
 
+Eigen::Matrix<double, 6, 6> adjoint(const Pose3& T_a_b) {
+  const Eigen::Matrix3d rotation = T_a_b.linear();
+  const Eigen::Vector3d t = T_a_b.translation();
+  Eigen::Matrix3d cross;
+  cross << 0.0, -t.z(), t.y(), t.z(), 0.0, -t.x(), -t.y(), t.x(), 0.0;
+  Eigen::Matrix<double, 6, 6> adjoint;
+  adjoint << rotation, cross * rotation, Eigen::Matrix3d::Zero(), rotation;
+  return adjoint;
+}
+
 bool isFinite(const Pose3& pose) {
   return pose.matrix().allFinite();
 }

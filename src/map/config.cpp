@@ -20,6 +20,12 @@ void describe(base::ConfigVisitor& visitor, LayersConfig& config) {
   visitor.key("band_most", grid.heightBand.most, "m", {0.0, 10.0}, "… and up to this height");
   visitor.endSection();
 
+  auto& surface = config.surface;
+  visitor.section("surface", "means of end points in cells, which scans and sub-maps are matched with");
+  visitor.key("resolution", surface.resolution, "m", {0.01, 1.0}, "edge length of a cell");
+  visitor.key("max_range", surface.maxRange, "m", {0.5, 500.0}, "beams are used up to here");
+  visitor.endSection();
+
   auto& points = config.points;
   visitor.section("points", "thinned points of each sub-map");
   visitor.key("voxel", points.voxel, "m", {0.005, 5.0}, "one point is kept in each cube of this edge length");

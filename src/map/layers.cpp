@@ -3,6 +3,7 @@
 #include "prodomos/map/occupancy_grid.hpp"
 #include "prodomos/map/point_layer.hpp"
 #include "prodomos/map/submap.hpp"
+#include "prodomos/map/surface_layer.hpp"
 
 #include <algorithm>
 #include <array>
@@ -25,6 +26,12 @@ constexpr std::array kLayerTypes = {
     LayerType{PointLayer::kTypeId,
               [](const LayersConfig& config) -> std::unique_ptr<MapLayer> {
                 return std::make_unique<PointLayer>(config.points);
+              }},
+    LayerType{SurfaceLayer::kTypeId,
+              [](const LayersConfig& config) -> std::unique_ptr<MapLayer> {
+                auto surface = config.surface;
+                surface.heightBand = config.grid.heightBand;
+                return std::make_unique<SurfaceLayer>(surface);
               }},
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the prodomos authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "map/level_beams.hpp"
+#include "prodomos/map/level_beams.hpp"
 
 #include "map/depth_points.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prodomos/map/occupancy_grid.hpp"
 
-#include "map/level_beams.hpp"
+#include "prodomos/map/level_beams.hpp"
 
 #include <algorithm>
 #include <array>

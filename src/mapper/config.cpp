@@ -7,7 +7,7 @@ namespace prodomos::mapper {
 void describe(base::ConfigVisitor& visitor, MapperConfig& config) {
   visitor.section("input", "what of a log is used");
   visitor.key("poses", config.input.poses,
-              "auto | odometry | recorded | path of a file with `time x y z qx qy qz qw` a line");
+              "auto | estimated | odometry | recorded | path of a file with `time x y z qx qy qz qw` a line");
   visitor.key("sensors", config.input.sensors, "labels of the sensors to use, with commas between; empty: all");
   visitor.key("start", config.input.start, "time stamp to begin at, decimal seconds; empty: the first");
   visitor.key("end", config.input.end, "time stamp to end at, decimal seconds; empty: the last");
@@ -28,12 +28,15 @@ void describe(base::ConfigVisitor& visitor, MapperConfig& config) {
   visitor.key("least_height", config.floor.leastHeight, "m", {0.5, 20.0}, "least height between two floors");
   visitor.endSection();
 
-  visitor.section("odometry_noise", "standard deviations of an edge that comes from odometry");
-  visitor.key("translation_per_metre", config.odometryNoise.translationPerMetre, "m", {1e-6, 10.0}, "of the way");
-  visitor.key("rotation_per_metre", config.odometryNoise.rotationPerMetre, "rad", {1e-6, 10.0}, "of the way");
-  visitor.key("rotation_per_radian", config.odometryNoise.rotationPerRadian, "rad", {1e-6, 10.0}, "of the turns");
+  visitor.section("odometry_noise", "standard deviations of poses that are told, by wheels or else; they grow with the root of the way");
+  visitor.key("translation_per_metre", config.odometryNoise.translationPerMetre, "m", {1e-6, 10.0}, "after a metre");
+  visitor.key("rotation_per_metre", config.odometryNoise.rotationPerMetre, "rad", {1e-6, 10.0}, "after a metre");
+  visitor.key("rotation_per_radian", config.odometryNoise.rotationPerRadian, "rad", {1e-6, 10.0}, "after a radian turned");
   visitor.endSection();
 
+  describe(visitor, config.laserOdometry);
+  describe(visitor, config.rgbdOdometry);
+  describe(visitor, config.loops);
   describe(visitor, config.layers);
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "prodomos/localization/laser_odometry.hpp"
+#include "prodomos/localization/rgbd_odometry.hpp"
 #include "prodomos/mapper/config.hpp"
 #include "prodomos/sensors/source.hpp"
 
@@ -9,15 +11,15 @@
 
 namespace prodomos::mapper {
 
-/// Where was the robot? As odometry says, as the log has recorded, or as a file says. Estimated poses will be one more
-/// origin here.
+/// Where was the robot? As its sensors tell (estimated), as odometry says, as the log has recorded, or as a file says.
 class Localizer {
  public:
   /// Throws base::FileError where the configuration names a trajectory file that cannot be read.
-  Localizer(const InputConfig& config, const sensors::SourceInfo& log);
+  Localizer(const MapperConfig& config, const sensors::SourceInfo& log);
 
-  /// "odometry", "recorded", or the path of the file.
+  /// "estimated", "odometry", "recorded", or the path of the file.
   const std::string& name() const { return name_; }
+  bool isEstimated() const { return origin_ == Origin::kEstimated; }
   /// Poses in a world whose floor is z = 0, rather than from wherever the robot began.
   bool knowsHeight() const { return origin_ != Origin::kOdometry; }
 
@@ -25,11 +27,22 @@ class Localizer {
   static bool isPose(const sensors::Reading& reading);
   /// Learns from a reading that isPose(). Empty, or why it is of no use.
   std::string take(const sensors::Reading& reading);
+  /// A reading that is not, and will be located later: which sensors there are decides which one is followed.
+  void expect(const sensors::Reading& reading);
 
+  struct Located {
+    geometry::Pose3 T_travel_body = geometry::Pose3::Identity();
+    /// Of the step since the reading located before, in the axes of the body now: metres, radians.
+    map::Matrix6 covariance = map::Matrix6::Zero();
+    /// The floor has just shown that `travel` is not upright, or at the wrong height: how it lies in a world that is.
+    std::optional<geometry::Pose3> T_upright_travel;
+  };
   /// May the pose at this time still become better known?
-  bool awaits(base::Time time) const { return !track_.reaches(time); }
-  /// None where no pose is known near this time.
-  std::optional<geometry::Pose3> poseAt(base::Time time) const;
+  bool awaits(base::Time time) const;
+  /// Readings in their order, each once. None where no pose is known near.
+  std::optional<Located> locate(const sensors::Reading& reading, const sensors::Mask* movers);
+  /// Of the readings located, those that were not recognised and got no more than what was to be expected.
+  std::int64_t lost() const { return lost_; }
   /// No more questions will come of times much before.
   void forgetBefore(base::Time time);
 
@@ -37,13 +50,35 @@ class Localizer {
   void load(base::ByteReader& in);
 
  private:
-  enum class Origin { kOdometry, kRecorded, kFile };
+  enum class Origin { kEstimated, kOdometry, kRecorded, kFile };
+  enum class Followed { kNothing, kRgbd, kCloud, kLaser };
   static Origin originOf(const InputConfig& config, const sensors::SourceInfo& log);
+  static Followed kindOf(const sensors::Reading& reading);
+
+  std::optional<Located> follow(base::Time time);
+  Located estimate(const sensors::Reading& reading, const sensors::Mask* movers);
+  Located trackLaser(const sensors::Reading& reading, const sensors::Mask* movers);
+  Located trackRgbd(const sensors::Reading& reading, const sensors::Mask* movers);
+  std::optional<geometry::Pose3> stepOfWheels(base::Time time) const;
+  map::Matrix6 wheelNoise(const geometry::Pose3& T_last_body) const;
 
   Origin origin_;
   std::string name_;
   double poseGap_;
-  PoseTrack track_;
+  OdometryNoiseConfig noise_;
+  map::HeightBand heightBand_;
+  double maxRange_;
+
+  PoseTrack track_;  // what is told of poses: by wheels, by the log, by a file
+  Followed followed_ = Followed::kNothing;
+  std::string sensor_;  // the label of what is followed
+  localization::LaserOdometry laser_;
+  localization::RgbdOdometry rgbd_;
+  geometry::Pose3 T_travel_world_ = geometry::Pose3::Identity();  // world: of the RGB-D odometry
+  bool hasLocated_ = false;
+  base::Time lastTime_{};
+  geometry::Pose3 T_travel_last_ = geometry::Pose3::Identity();
+  std::int64_t lost_ = 0;
 };
 
 }  // namespace prodomos::mapper

@@ -4,8 +4,11 @@
 
 #include "mapper/floor_tracker.hpp"
 #include "mapper/localizer.hpp"
-#include "mapper/pose_bytes.hpp"
+#include "mapper/graph_bytes.hpp"
+#include "mapper/graph_refiner.hpp"
 #include "mapper/running_submap.hpp"
+
+#include <Eigen/LU>
 
 #include <cmath>
 #include <deque>
@@ -22,12 +25,19 @@ constexpr std::size_t kMostWaiting = 64;
 constexpr base::Duration kLongestWait = std::chrono::seconds(2);
 
 /// Of what a checkpoint holds. Raise it with every change there.
-constexpr int kCheckpointVersion = 1;
+constexpr int kCheckpointVersion = 2;
 
 /// Where there is something, and where nothing: what layers are made of. Other readings do not begin sub-maps.
 bool tellsDistances(const sensors::ReadingData& data) {
   if (const auto* frame = std::get_if<sensors::RgbdFrame>(&data)) return !frame->depth.empty();
   return std::holds_alternative<sensors::LaserScan>(data) || std::holds_alternative<sensors::PointCloud>(data);
+}
+
+/// Poses that are told, by wheels or else, are followed to the letter.
+localization::LoopCloserConfig loopsOf(const MapperConfig& config, const Localizer& localizer) {
+  auto loops = config.loops;
+  loops.enabled = loops.enabled && localizer.isEstimated();
+  return loops;
 }
 
 }  // namespace
@@ -58,15 +68,18 @@ class Mapper::Impl {
 
   void placeWaiting(bool all);
   void place(const sensors::Reading& reading);
-  void travelTo(const geometry::Pose3& T_travel_body, const sensors::Reading& reading);
+  void travelTo(const Localizer::Located& located, const sensors::Reading& reading);
   void beginTravel(const geometry::Pose3& T_travel_body, base::Time time);
+  void standUpright(const geometry::Pose3& T_upright_travel);
   void passOn(map::EdgeKind kind, const geometry::Pose3& T_travel_body, base::Time time);
-  map::Node nodeBelow(const geometry::Pose3& T_travel_body, base::Time time);
-  map::Edge edgeTo(const map::Node& to, map::EdgeKind kind);
+  map::Node nodeBelow(const geometry::Pose3& T_travel_body, base::Time time) const;
+  map::Edge edgeBetween(const RunningSubMap& from, const map::Node& to, map::EdgeKind kind) const;
   /// Of the ground below the robot, above the first floor.
   double heightAt(const geometry::Pose3& T_travel_body) const {
     return (session_.T_map_travel * T_travel_body).translation().z() - clearance_;
   }
+
+  void refine();
 
   void use(const sensors::Reading& reading);
   void skip(const std::string& reason) { ++report.skippedByReason[reason]; }
@@ -85,21 +98,19 @@ class Mapper::Impl {
   FloorTracker floors_;
   std::deque<Waiting> waiting_;
   std::vector<std::int64_t> waitingWhenInterrupted_;
+  GraphRefiner refiner_;
   std::optional<RunningSubMap> running_;  // none until the first reading is placed
-  std::int64_t nextSubMap_ = 0;
-  std::int64_t nextEdge_ = 0;
   double clearance_ = 0.0;  // height of the body above the floor
   geometry::Pose3 T_travel_lastBody_ = geometry::Pose3::Identity();
 };
 
 Mapper::Impl::Impl(map::MapStore& store, const MapperConfig& config, const sensors::SourceInfo& log)
-    : store_(store), config_(config), localizer_(config.input, log), floors_(config.floor.leastHeight) {
-  const auto view = store.view();
-  // Ids are unique over sessions.
-  if (const auto nodes = view.graph().nodes(); !nodes.empty()) nextSubMap_ = nodes.back().value + 1;
-  if (const auto edges = view.graph().edges(); !edges.empty()) nextEdge_ = edges.back().value + 1;
-
-  const auto& sessions = view.sessions();
+    : store_(store),
+      config_(config),
+      localizer_(config, log),
+      floors_(config.floor.leastHeight),
+      refiner_(loopsOf(config, localizer_), store) {
+  const auto sessions = store.view().sessions();
   if (sessions.empty()) {
     beginSession(log, base::SessionId{0});
   } else if (sessions.back().state == map::SessionState::kRunning) {
@@ -143,6 +154,7 @@ void Mapper::Impl::process(sensors::Reading reading) {
   const std::int64_t item = report.read++;
   if (!reading.fault.empty()) report.addFault(reading.fault);
   if (!Localizer::isPose(reading)) {
+    localizer_.expect(reading);
     waiting_.push_back({item, std::move(reading)});
   } else if (const auto uselessness = localizer_.take(reading); uselessness.empty()) {
     use(reading);
@@ -180,24 +192,32 @@ void Mapper::Impl::placeWaiting(bool all) {
 void Mapper::Impl::place(const sensors::Reading& reading) {
   const auto nobodyTakesIt = [&] { skip("no layer takes a " + std::string(kindName(reading.data))); };
   if (!tellsDistances(reading.data)) return nobodyTakesIt();
-  const auto T_travel_body = localizer_.poseAt(reading.time);
-  if (!T_travel_body) return skip("no recorded pose near");
-  travelTo(*T_travel_body, reading);
-  const map::PlacedReading placed{reading, running_->T_submap_body(*T_travel_body)};
-  if (!running_->integrate(placed, *T_travel_body, times)) return nobodyTakesIt();
+  const auto located = [&] {
+    const auto timing = times.measure("localize");
+    return localizer_.locate(reading, nullptr);
+  }();
+  report.lost = localizer_.lost();
+  if (!located) return skip("no recorded pose near");
+  travelTo(*located, reading);
+  const map::PlacedReading placed{reading, running_->T_submap_body(located->T_travel_body)};
+  if (!running_->integrate(placed, located->T_travel_body, times)) return nobodyTakesIt();
   use(reading);
   session_.end = reading.time;
 }
 
 /// Goes on within the running sub-map, or into a new one (002 §II-A).
-void Mapper::Impl::travelTo(const geometry::Pose3& T_travel_body, const sensors::Reading& reading) {
+void Mapper::Impl::travelTo(const Localizer::Located& located, const sensors::Reading& reading) {
+  const auto& T_travel_body = located.T_travel_body;
   if (!running_) return beginTravel(T_travel_body, reading.time);
   const geometry::Pose3 T_last_body = T_travel_lastBody_.inverse() * T_travel_body;
   T_travel_lastBody_ = T_travel_body;
   report.distance = session_.distance += T_last_body.translation().norm();
-  running_->move(T_last_body);
+  running_->move(T_last_body, located.covariance);
 
-  if (const auto way = floors_.update(heightAt(T_travel_body), session_.distance)) {
+  if (located.T_upright_travel) {
+    standUpright(*located.T_upright_travel);
+    passOn(map::EdgeKind::kTravelled, T_travel_body, reading.time);
+  } else if (const auto way = floors_.update(heightAt(T_travel_body), session_.distance)) {
     passOn(*way, T_travel_body, reading.time);
   } else if (running_->isLeftBy({reading, running_->T_submap_body(T_travel_body)}, config_.submap)) {
     passOn(map::EdgeKind::kTravelled, T_travel_body, reading.time);
@@ -215,54 +235,70 @@ void Mapper::Impl::beginTravel(const geometry::Pose3& T_travel_body, base::Time 
   session_.begin = time;
   T_travel_lastBody_ = T_travel_body;
   running_.emplace(nodeBelow(T_travel_body, time), std::nullopt, config_.layers);
+  refiner_.add(running_->node(), std::nullopt);
   ++report.submaps;
+}
+
+/// What was mapped so far moves as a whole; within, its sub-maps stay as they are.
+void Mapper::Impl::standUpright(const geometry::Pose3& T_upright_travel) {
+  refiner_.move(session_.id, T_upright_travel * session_.T_map_travel.inverse());
+  session_.T_map_travel = T_upright_travel;
+  running_->refine(refiner_.T_map_submap(running_->node().id));
 }
 
 /// Finishes the running sub-map, and begins the next one below the robot.
 void Mapper::Impl::passOn(map::EdgeKind kind, const geometry::Pose3& T_travel_body, base::Time time) {
-  const RunningSubMap finished = std::move(*running_);
+  refine();
   const auto node = nodeBelow(T_travel_body, time);
-  const auto edge = edgeTo(node, kind);
-  running_.emplace(node, edge, config_.layers);
+  const auto edge = edgeBetween(*running_, node, kind);
+  const auto finished = std::exchange(running_, RunningSubMap(node, edge, config_.layers));
+  refiner_.add(node, edge);
   ++report.submaps;
   map::MapChange change;
   change.floors = floors_.floors();
-  finished.addTo(change);
+  finished->addTo(change);
+  refiner_.addTo(change, node.id, false);
   change.checkpoint = checkpoint();
   commit(std::move(change));
 }
 
-map::Node Mapper::Impl::nodeBelow(const geometry::Pose3& T_travel_body, base::Time time) {
+/// The running sub-map is complete: where it shows what was seen before, all poses become better.
+void Mapper::Impl::refine() {
+  const auto timing = times.measure("refine");
+  refiner_.close(running_->submap());
+  running_->refine(refiner_.T_map_submap(running_->node().id));
+}
+
+map::Node Mapper::Impl::nodeBelow(const geometry::Pose3& T_travel_body, base::Time time) const {
   const double height = heightAt(T_travel_body);
   const auto& floor = floors_.current();
   const bool isLevel = std::abs(height - floor.height) < FloorTracker::kLevelTolerance;
   map::Node node;
-  node.id = base::SubMapId{nextSubMap_++};
+  node.id = refiner_.newNodeId();
   node.session = session_.id;
   node.floor = floor.number;
-  node.T_map_submap =
+  const geometry::Pose3 T_map_unrefined =
       geometry::toPose3(geometry::toPose2(session_.T_map_travel * T_travel_body), isLevel ? floor.height : height);
-  node.T_travel_submap = session_.T_map_travel.inverse() * node.T_map_submap;
+  node.T_travel_submap = session_.T_map_travel.inverse() * T_map_unrefined;
+  node.T_map_submap = T_map_unrefined;
+  if (running_) {
+    const auto& last = running_->node();
+    node.T_map_submap = last.T_map_submap * last.T_travel_submap.inverse() * node.T_travel_submap;
+  }
   node.begin = node.end = time;
   return node;
 }
 
-/// From the running sub-map, as surely as the way within it is known.
-map::Edge Mapper::Impl::edgeTo(const map::Node& to, map::EdgeKind kind) {
-  const auto& from = running_->node();
-  const auto& noise = config_.odometryNoise;
+/// As surely as the way within the sub-map is known.
+map::Edge Mapper::Impl::edgeBetween(const RunningSubMap& from, const map::Node& to, map::EdgeKind kind) const {
   constexpr double kLeastSigma = 1e-3;  // metres, radians; nothing is known better
-  const double translation = kLeastSigma + noise.translationPerMetre * from.distance;
-  const double rotation =
-      kLeastSigma + noise.rotationPerMetre * from.distance + noise.rotationPerRadian * running_->turned();
   map::Edge edge;
-  edge.id = base::EdgeId{nextEdge_++};
-  edge.from = from.id;
+  edge.id = refiner_.newEdgeId();
+  edge.from = from.node().id;
   edge.to = to.id;
   edge.kind = kind;
-  edge.T_from_to = from.T_travel_submap.inverse() * to.T_travel_submap;
-  edge.information.diagonal() << Eigen::Vector3d::Constant(1.0 / (translation * translation)),
-      Eigen::Vector3d::Constant(1.0 / (rotation * rotation));
+  edge.T_from_to = from.node().T_travel_submap.inverse() * to.T_travel_submap;
+  edge.information = (from.covariance() + kLeastSigma * kLeastSigma * map::Matrix6::Identity()).inverse();
   return edge;
 }
 
@@ -280,8 +316,10 @@ void Mapper::Impl::finish(const sensors::EndOfLog& end) {
   if (!end.fault.empty()) report.addFault(end.fault);
 
   map::MapChange change;
+  if (running_) refine();
   const auto last = std::exchange(running_, std::nullopt);
   if (last) last->addTo(change);
+  refiner_.addTo(change, base::SubMapId{-1}, true);
   session_.state = map::SessionState::kComplete;
   change.events.push_back({session_.end, session_.id, "session_finished", toString(session_.id), "{}"});
   commit(std::move(change));
@@ -299,7 +337,8 @@ map::Checkpoint Mapper::Impl::checkpoint() const {
   savePose(out, T_travel_lastBody_);
   saveTime(out, session_.begin);
   saveTime(out, session_.end);
-  out << session_.distance << clearance_ << nextSubMap_ << nextEdge_;
+  out << session_.distance << clearance_;
+  refiner_.save(out);
   running_->save(out);
   return {session_.id, out.take()};
 }
@@ -320,8 +359,9 @@ void Mapper::Impl::load(const map::Checkpoint& checkpoint) {
   T_travel_lastBody_ = loadPose(in);
   session_.begin = loadTime(in);
   session_.end = loadTime(in);
-  in >> session_.distance >> clearance_ >> nextSubMap_ >> nextEdge_;
-  running_.emplace(RunningSubMap::load(in, session_.id, config_.layers));
+  in >> session_.distance >> clearance_;
+  refiner_.load(in);
+  running_.emplace(RunningSubMap::load(in, config_.layers));
 }
 
 void Mapper::Impl::restore(std::vector<std::pair<std::int64_t, sensors::Reading>>&& waiting) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mapper/pose_track.hpp"
 
-#include "mapper/pose_bytes.hpp"
+#include "mapper/graph_bytes.hpp"
 
 #include <algorithm>
 

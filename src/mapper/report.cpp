@@ -27,7 +27,7 @@ void Report::addFault(const std::string& fault) {
 }
 
 void Report::save(base::ByteWriter& out) const {
-  out << read << used << faultCount << submaps << distance;
+  out << read << used << faultCount << submaps << distance << lost;
   mapper::save(out, usedByKind);
   mapper::save(out, skippedByReason);
   out << static_cast<std::uint64_t>(faults.size());
@@ -35,7 +35,7 @@ void Report::save(base::ByteWriter& out) const {
 }
 
 void Report::load(base::ByteReader& in) {
-  in >> read >> used >> faultCount >> submaps >> distance;
+  in >> read >> used >> faultCount >> submaps >> distance >> lost;
   mapper::load(in, usedByKind);
   mapper::load(in, skippedByReason);
   faults.clear();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mapper/running_submap.hpp"
 
-#include "mapper/pose_bytes.hpp"
+#include "mapper/graph_bytes.hpp"
 
 namespace prodomos::mapper {
 
@@ -17,9 +17,11 @@ RunningSubMap::RunningSubMap(const map::Node& node, const std::optional<map::Edg
                              const map::LayersConfig& config)
     : submap_(map::makeSubMap(node, config)), edge_(edge) {}
 
-void RunningSubMap::move(const geometry::Pose3& T_before_after) {
+void RunningSubMap::move(const geometry::Pose3& T_before_after, const map::Matrix6& covariance) {
   submap_.node.distance += T_before_after.translation().norm();
   turned_ += geometry::rotationAngle(T_before_after);
+  const auto adjoint = geometry::adjoint(T_before_after.inverse());
+  covariance_ = adjoint * covariance_ * adjoint.transpose() + covariance;
 }
 
 bool RunningSubMap::isLeftBy(const map::PlacedReading& placed, const SubMapConfig& config) {
@@ -53,8 +55,6 @@ bool RunningSubMap::integrate(const map::PlacedReading& placed, const geometry::
 
 void RunningSubMap::addTo(map::MapChange& change) const {
   const auto& node = submap_.node;
-  change.nodes.push_back(node);
-  if (edge_) change.edges.push_back(*edge_);
   change.trajectory.insert(change.trajectory.end(), trajectory_.begin(), trajectory_.end());
   for (const auto& layer : submap_.layers) change.layers.emplace_back(node.id, layer.get());
   const auto addEvent = [&](const char* kind, base::Time time, const std::string& payload) {
@@ -73,33 +73,15 @@ std::shared_ptr<const map::SubMap> RunningSubMap::clone() const {
 }
 
 void RunningSubMap::save(base::ByteWriter& out) const {
-  const auto& node = submap_.node;
-  out << node.id.value << node.floor.value_or(0);
-  savePose(out, node.T_map_submap);
-  savePose(out, node.T_travel_submap);
-  saveTime(out, node.begin);
+  saveNode(out, submap_.node);
   out << edge_.has_value();
-  if (!edge_) return;
-  out << edge_->id.value << edge_->from.value << edge_->kind;
-  savePose(out, edge_->T_from_to);
-  for (int i = 0; i < 36; ++i) out << edge_->information.data()[i];
+  if (edge_) saveEdge(out, *edge_);
 }
 
-RunningSubMap RunningSubMap::load(base::ByteReader& in, base::SessionId session, const map::LayersConfig& config) {
-  map::Node node;
-  node.session = session;
-  in >> node.id.value;
-  node.floor = in.read<int>();
-  node.T_map_submap = loadPose(in);
-  node.T_travel_submap = loadPose(in);
-  node.begin = node.end = loadTime(in);
+RunningSubMap RunningSubMap::load(base::ByteReader& in, const map::LayersConfig& config) {
+  const auto node = loadNode(in);
   if (!in.read<bool>()) return {node, std::nullopt, config};
-  map::Edge edge;
-  edge.to = node.id;
-  in >> edge.id.value >> edge.from.value >> edge.kind;
-  edge.T_from_to = loadPose(in);
-  for (int i = 0; i < 36; ++i) in >> edge.information.data()[i];
-  return {node, edge, config};
+  return {node, loadEdge(in), config};
 }
 
 }  // namespace prodomos::mapper

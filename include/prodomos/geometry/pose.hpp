@@ -46,6 +46,10 @@ Pose3 levelled(const Pose3& pose);
 /// Angle of the rotation, radians in [0, pi].
 double rotationAngle(const Pose3& pose);
 
+/// Maps small motions (metres, then a rotation vector in radians) in the axes of b into those of a; of covariances:
+/// adjoint * covariance * adjoint^T.
+Eigen::Matrix<double, 6, 6> adjoint(const Pose3& T_a_b);
+
 bool isFinite(const Pose3& pose);
 
 }  // namespace prodomos::geometry

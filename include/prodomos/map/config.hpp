@@ -23,6 +23,12 @@ struct OccupancyGridConfig {
   HeightBand heightBand;
 };
 
+struct SurfaceLayerConfig {
+  double resolution = 0.05;  ///< metres; one mean is kept in each cell
+  double maxRange = 30.0;    ///< metres; beams are used up to here
+  HeightBand heightBand;     ///< that of the grid
+};
+
 struct PointLayerConfig {
   double voxel = 0.10;     ///< metres; one point is kept in each
   double maxRange = 10.0;  ///< metres
@@ -31,6 +37,7 @@ struct PointLayerConfig {
 struct LayersConfig {
   OccupancyGridConfig grid;
   PointLayerConfig points;
+  SurfaceLayerConfig surface;
 };
 
 void describe(base::ConfigVisitor& visitor, LayersConfig& config);

@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "prodomos/localization/laser_odometry.hpp"
+#include "prodomos/localization/loop_closer.hpp"
+#include "prodomos/localization/rgbd_odometry.hpp"
 #include "prodomos/map/config.hpp"
 
 namespace prodomos::mapper {
 
 /// What of a log is used, and how.
 struct InputConfig {
-  std::string poses = "auto";  ///< "auto", "odometry", "recorded", or the path of a trajectory file
+  std::string poses = "auto";  ///< "auto", "estimated", "odometry", "recorded", or the path of a trajectory file
   std::string sensors;         ///< labels with commas between; empty: all
   std::string start;           ///< decimal seconds; empty: from the first
   std::string end;             ///< decimal seconds; empty: to the last
@@ -27,7 +30,8 @@ struct FloorConfig {
   double leastHeight = 1.8;  ///< metres between two floors
 };
 
-/// Standard deviations of what an edge says when it comes from odometry.
+/// Standard deviations of poses that come from wheels or from elsewhere, after a metre or radian; they grow with its
+/// root.
 struct OdometryNoiseConfig {
   double translationPerMetre = 0.05;
   double rotationPerMetre = 0.01;   ///< radians
@@ -39,6 +43,9 @@ struct MapperConfig {
   SubMapConfig submap;
   FloorConfig floor;
   OdometryNoiseConfig odometryNoise;
+  localization::LaserOdometryConfig laserOdometry;
+  localization::RgbdOdometryConfig rgbdOdometry;
+  localization::LoopCloserConfig loops;
   map::LayersConfig layers;
 };
 

@@ -21,6 +21,7 @@ struct Report {
   std::int64_t faultCount = 0;
   int submaps = 0;
   double distance = 0.0;  ///< metres
+  std::int64_t lost = 0;  ///< readings used whose own pose could not be estimated
 
   static constexpr std::size_t kMostFaults = 5;
   void addFault(const std::string& fault);

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prodomos/localization/submap_matcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace prodomos::localization {
+
+namespace {
+
+constexpr int kLevels = 7;
+constexpr double kSearchSpacing = 0.2;  // metres between the points that are searched with
+// The windows in which no other pose competes: what the refinement reaches anyway.
+constexpr double kSmallReach = 0.5;  // metres
+constexpr double kSameReach = 1.0;   // metres, radians; poses nearer than this are one place
+// Points of one wall err together: by what the sub-map itself is bent. So many of them count as one.
+constexpr double kCorrelated = 20.0;
+
+std::vector<Eigen::Vector2d> positions(const map::SurfaceLayer& surface) {
+  std::vector<Eigen::Vector2d> positions;
+  positions.reserve(surface.points().size());
+  for (const auto& point : surface.points()) positions.push_back(point.position_in_submap());
+  return positions;
+}
+
+/// One of them per square.
+std::vector<Eigen::Vector2d> thinned(const map::SurfaceLayer& surface, double spacing) {
+  map::SurfaceLayer coarse({.resolution = spacing});
+  for (const auto& point : surface.points()) coarse.insert(point.position_in_submap());
+  return positions(coarse);
+}
+
+struct Comparison {
+  int agreeing = 0;
+  int conflicting = 0;
+};
+
+/// What one sub-map's surface is to the other: on its surface, on its free floor, or where it has not seen.
+Comparison compare(const map::SurfaceLayer& points, const MatchedLayers& other, const geometry::Pose2& T_other_points) {
+  Comparison comparison;
+  const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(T_other_points.theta).toRotationMatrix();
+  const Eigen::Vector2d translation(T_other_points.x, T_other_points.y);
+  for (const auto& point : points.points()) {
+    const Eigen::Vector2d place = rotation * point.position_in_submap() + translation;
+    if (other.surface->isNear(place)) {
+      ++comparison.agreeing;
+    } else if (other.grid->state(other.grid->cellAt(place)) == map::CellState::kFree) {
+      ++comparison.conflicting;
+    }
+  }
+  return comparison;
+}
+
+}  // namespace
+
+std::optional<SubMapMatch> matchSubMaps(const MatchedLayers& from, const MatchedLayers& to, const SearchWindow& window,
+                                        const SubMapMatcherConfig& config) {
+  const auto thin = thinned(*to.surface, kSearchSpacing);
+  const LikelihoodField field(*from.surface, config.searchResolution, kLevels);
+  const auto found = searchPose(thin, field, window, config.leastScore);
+  if (!found) return std::nullopt;
+  if (window.reach > kSmallReach) {
+    const double rival = found->score - config.leastLead;
+    if (searchPose(thin, field, window, rival, found->T_map_body, kSameReach)) return std::nullopt;
+  }
+  const auto points = positions(*to.surface);
+  const auto match = matchScan(points, *from.surface, {.T_map_body = found->T_map_body});
+
+  const auto there = compare(*to.surface, from, match.T_map_body);
+  const auto back = compare(*from.surface, to, geometry::inverse(match.T_map_body));
+  const auto count = static_cast<double>(std::min(points.size(), from.surface->points().size()));
+  const double agreeing = std::min(there.agreeing, back.agreeing);
+  const double conflicting = std::max(there.conflicting, back.conflicting);
+  SubMapMatch result{.T_from_to = match.T_map_body, .information = match.information / kCorrelated};
+  result.overlap = agreeing / std::max(count, 1.0);
+  result.conflict = conflicting / std::max(agreeing + conflicting, 1.0);
+  const bool isSame = result.overlap >= config.leastOverlap && result.conflict <= config.mostConflict &&
+                      agreeing * to.surface->resolution() >= config.leastWall;
+  return isSame ? std::optional(result) : std::nullopt;
+}
+
+}  // namespace prodomos::localization
