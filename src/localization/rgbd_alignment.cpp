@@ -27,9 +27,9 @@ Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
 
 /// Of three points each, in both frames.
 Pose3 rigid(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
-  Pose3 T = Pose3::Identity();
-  T.matrix() = Eigen::umeyama(from, to, false);
-  return T;
+  Pose3 T_to_from = Pose3::Identity();
+  T_to_from.matrix() = Eigen::umeyama(from, to, false);
+  return T_to_from;
 }
 
 /// Squared, in units of the gate; at least 1: an outlier.
@@ -164,9 +164,9 @@ void addBelief(const Belief& belief, const Pose3& T_world_camera, NormalEquation
 }
 
 void addFloor(const FloorSeen& floor, const Pose3& T_world_camera, NormalEquations& sum) {
-  const Eigen::Matrix3d& R = T_world_camera.linear();
-  const Eigen::Vector3d normal = R * floor.plane_in_camera.normal;  // should be up
-  const Eigen::Matrix3d normalBy = -R * crossMatrix(floor.plane_in_camera.normal);
+  const Eigen::Matrix3d& R_world_camera = T_world_camera.linear();
+  const Eigen::Vector3d normal = R_world_camera * floor.plane_in_camera.normal;  // should be up
+  const Eigen::Matrix3d normalBy = -R_world_camera * crossMatrix(floor.plane_in_camera.normal);
   for (int axis = 0; axis < 2; ++axis) {
     Vector6 jacobian = Vector6::Zero();
     jacobian.tail<3>() = normalBy.row(axis).transpose();
@@ -175,7 +175,7 @@ void addFloor(const FloorSeen& floor, const Pose3& T_world_camera, NormalEquatio
   // Height of the camera over the plane that it sees, against its height in the world.
   const double off = T_world_camera.translation().z() + floor.plane_in_camera.offset;
   Vector6 jacobian = Vector6::Zero();
-  jacobian.head<3>() = R.row(2).transpose();
+  jacobian.head<3>() = R_world_camera.row(2).transpose();
   sum.add(jacobian, off, 1.0 / (floor.heightSigma * floor.heightSigma));
 }
 
@@ -194,11 +194,11 @@ bool Alignment::isConvincing() const {
 }
 
 Pose3 smallMotion(const Vector6& motion) {
-  Pose3 T = Pose3::Identity();
-  T.translation() = motion.head<3>();
+  Pose3 T_before_after = Pose3::Identity();
+  T_before_after.translation() = motion.head<3>();
   const double angle = motion.tail<3>().norm();
-  if (angle > 0.0) T.linear() = Eigen::AngleAxisd(angle, motion.tail<3>() / angle).toRotationMatrix();
-  return T;
+  if (angle > 0.0) T_before_after.linear() = Eigen::AngleAxisd(angle, motion.tail<3>() / angle).toRotationMatrix();
+  return T_before_after;
 }
 
 std::optional<MatchedPose> poseFromMatches(const View& reference, const View& current, std::span<const Match> matches,
@@ -212,10 +212,11 @@ std::optional<MatchedPose> poseFromMatches(const View& reference, const View& cu
   }
   if (both.size() < 3 || all.size() < static_cast<std::size_t>(kLeastMatches)) return std::nullopt;
   const double focal = current.camera.focalLength();
-  const auto totalCost = [&](const Pose3& T) {
+  const auto totalCost = [&](const Pose3& T_current_reference) {
     double total = 0.0;
     for (const auto& match : all) {
-      total += std::min(1.0, cost(reference.points[match.reference], current.points[match.current], T, focal));
+      total += std::min(
+          1.0, cost(reference.points[match.reference], current.points[match.current], T_current_reference, focal));
     }
     return total;
   };
@@ -239,11 +240,11 @@ std::optional<MatchedPose> poseFromMatches(const View& reference, const View& cu
       alike = alike && before > 0.05 && std::abs(before - after) < 0.03 + 0.05 * before;
     }
     if (!alike) continue;
-    const Pose3 T = rigid(from, to);
-    const double total = totalCost(T);
+    const Pose3 T_current_reference = rigid(from, to);
+    const double total = totalCost(T_current_reference);
     if (total >= least) continue;
     least = total;
-    best = T;
+    best = T_current_reference;
     const double share = 1.0 - least / static_cast<double>(all.size());
     const double needed = std::log(0.001) / std::log(1.0 - std::min(0.99, std::pow(share, 3)));
     trials = std::min(kTrials, std::max(30, static_cast<int>(needed) * 3));

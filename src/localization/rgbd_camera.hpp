@@ -34,8 +34,8 @@ class Camera {
 
   /// Fixed-point iteration, as OpenCV's undistortPoints.
   Eigen::Vector2d ray(const Eigen::Vector2d& pixel) const {
-    const Eigen::Vector2d distorted((pixel.x() - intrinsics_.cx) / intrinsics_.fx,
-                                    (pixel.y() - intrinsics_.cy) / intrinsics_.fy);
+    Eigen::Vector2d distorted((pixel.x() - intrinsics_.cx) / intrinsics_.fx,
+                              (pixel.y() - intrinsics_.cy) / intrinsics_.fy);
     if (intrinsics_.distortion == std::array<double, 5>{}) return distorted;
     Eigen::Vector2d ray = distorted;
     for (int i = 0; i < 8; ++i) {

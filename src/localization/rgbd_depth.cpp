@@ -24,7 +24,7 @@ DepthGrid::DepthGrid(const Camera& camera, const sensors::Image<float>& depth, c
   const auto usable = [most](float z) { return z > 0.0F && z < most; };  // false for NaN
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
-      Cell& cell = cells_[static_cast<std::size_t>(y * width_ + x)];
+      Cell& cell = cells_[index(x, y)];
       const int left = x * kBlock;
       const int top = y * kBlock;
       float center = depth.row(top + kBlock / 2)[left + kBlock / 2];
@@ -64,7 +64,7 @@ void DepthGrid::resize(const Camera& camera, const DepthGrid* earlier) {
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
       const Eigen::Vector2f ray = camera.ray({x * kBlock + kCenter, y * kBlock + kCenter}).cast<float>();
-      Cell& cell = cells_[static_cast<std::size_t>(y * width_ + x)];
+      Cell& cell = cells_[index(x, y)];
       cell.rayX = ray.x();
       cell.rayY = ray.y();
     }
@@ -86,7 +86,7 @@ void DepthGrid::computeNormals() {
   constexpr int kLeastCells = 12;  // of the 25
   for (int y = kReach; y < height_ - kReach; ++y) {
     for (int x = kReach; x < width_ - kReach; ++x) {
-      Cell& center = cells_[static_cast<std::size_t>(y * width_ + x)];
+      Cell& center = cells_[index(x, y)];
       if (!(center.depth > 0.0F)) continue;
       Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
       Eigen::Vector3d products = Eigen::Vector3d::Zero();

@@ -32,7 +32,7 @@ class DepthGrid {
   const Camera& camera() const { return camera_; }
   int width() const { return width_; }
   int height() const { return height_; }
-  const Cell& at(int x, int y) const { return cells_[static_cast<std::size_t>(y * width_ + x)]; }
+  const Cell& at(int x, int y) const { return cells_[index(x, y)]; }
   std::size_t known() const { return known_; }
 
   /// The cell that a point in the camera falls into; none outside of the image, behind it, or where depth is not known.
@@ -45,6 +45,9 @@ class DepthGrid {
   void load(base::ByteReader& in);
 
  private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
   void resize(const Camera& camera, const DepthGrid* earlier);
 
   Camera camera_;

@@ -111,7 +111,9 @@ class Tiles {
   static int clamped(double pixel, int count) {
     return static_cast<int>(std::clamp(pixel / kTile, 0.0, static_cast<double>(count - 1)));
   }
-  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * columns_ + x); }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
+  }
 
   int columns_;
   int rows_;

@@ -328,7 +328,7 @@ RgbdOdometry::Estimate RgbdOdometry::Implementation::track(base::Time time, cons
   const auto found = find(view, belief);
   if (!found) {
     constexpr int kLostForGood = 10;  // frames
-    const auto estimate = lost(time, belief);
+    auto estimate = lost(time, belief);
     if (++unrecognized_ >= kLostForGood && isSurface) beginAgain(std::move(view), belief.T_world_camera);
     return estimate;
   }
