@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace prodomos::localization {
 
@@ -16,7 +15,11 @@ constexpr double kSigmas = 3.0;
 // Sub-maps are bent, and covariances too small now and then: never search less than this around.
 constexpr double kLeastReach = 0.5;  // metres
 constexpr double kLeastTurn = 0.1;   // radians
-constexpr double kMostReach = 20.0;  // metres; what is known worse is found by its looks
+constexpr double kMostTurn = 0.5;
+constexpr double kMostReach = 4.0;   // metres; what is known worse is found by its looks
+// Viewpoints that look alike lie that near, and are turned that well.
+constexpr double kAlikeReach = 1.5;  // metres
+constexpr double kAlikeTurn = 0.2;   // radians
 constexpr double kMostRadius = 15.0;
 
 Eigen::Vector2d operator*(const geometry::Pose2& T_a_b, const Eigen::Vector2d& point_in_b) {
@@ -92,8 +95,11 @@ std::vector<Loop> LoopCloser::find(const LoopPlace& newest, std::span<const Loop
   std::vector<Loop> loops;
   const auto layers = findLayers_(newest.id);
   for (const auto& candidate : candidates) {
-    const auto match = matchSubMaps(findLayers_(candidate.id), layers, candidate.window, config_.match);
-    if (match) loops.push_back({candidate.id, newest.id, *match});
+    const auto others = findLayers_(candidate.id);
+    auto window = candidate.window;
+    if (candidate.likeness) window.centre = alignViewpoints(*others.surface, *layers.surface, *candidate.likeness);
+    if (const auto match = matchSubMaps(others, layers, window, config_.match))
+      loops.push_back({candidate.id, newest.id, *match});
   }
   return loops;
 }
@@ -116,10 +122,10 @@ std::vector<LoopCloser::Candidate> LoopCloser::nearOnes(const LoopPlace& newest,
   std::erase_if(near, [&](Candidate& candidate) {
     const Eigen::Matrix3d covariance = findCovariance(candidate.id, newest.id);
     const double sigma = std::sqrt(covariance.topLeftCorner<2, 2>().diagonal().maxCoeff());
-    candidate.window.reach = std::max(kLeastReach, kSigmas * sigma);
-    candidate.window.turn = std::clamp(kSigmas * std::sqrt(covariance(2, 2)), kLeastTurn, std::numbers::pi);
+    candidate.window.reach = std::clamp(kSigmas * sigma, kLeastReach, kMostReach);
+    candidate.window.turn = std::clamp(kSigmas * std::sqrt(covariance(2, 2)), kLeastTurn, kMostTurn);
     const double reach = looks.radius + looksOf(candidate.id).radius;
-    return candidate.window.reach > kMostReach || candidate.rank > reach + candidate.window.reach;
+    return candidate.rank > reach + candidate.window.reach;
   });
   keepBest(near, config_.near);
   return near;
@@ -132,15 +138,12 @@ std::vector<LoopCloser::Candidate> LoopCloser::alikeOnes(const LoopPlace& newest
   std::vector<Candidate> alike;
   std::vector<Candidate> strangers;
   for (const auto& other : others) {
-    const auto& otherLooks = looksOf(other.id);
-    // Were they the same, the centres of what they show would lie near each other, whatever the direction.
-    const auto& centre = otherLooks.centre_in_submap;
+    const auto likeness = mostAlike(looksOf(other.id).signatures, looks.signatures);
     auto& candidates = other.component == newest.component ? alike : strangers;
     candidates.push_back({.id = other.id,
-                          .rank = dissimilarity(looks.signatures, otherLooks.signatures),
-                          .window = {.centre = {centre.x(), centre.y(), 0.0},
-                                     .reach = std::min(kMostReach, looks.centre_in_submap.norm() + looks.radius),
-                                     .turn = std::numbers::pi}});
+                          .rank = likeness.difference,
+                          .window = {.reach = kAlikeReach, .turn = kAlikeTurn},
+                          .likeness = likeness});
   }
   keepBest(alike, config_.alike);
   keepBest(strangers, config_.alike);

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prodomos/localization/place_signature.hpp"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 
 namespace prodomos::localization {
@@ -35,13 +34,13 @@ Profile profileFrom(const Eigen::Vector2d& viewpoint, const map::SurfaceLayer& s
 
 PlaceSignature spectrumOf(const Profile& profile) {
   PlaceSignature signature;
-  for (int frequency = 0; frequency < PlaceSignature::kFrequencies; ++frequency) {
+  for (std::size_t frequency = 0; frequency < PlaceSignature::kFrequencies; ++frequency) {
     std::complex<double> sum;
     for (std::size_t i = 0; i < kDirections; ++i) {
-      const double angle = 2.0 * std::numbers::pi * frequency * static_cast<double>(i) / kDirections;
+      const double angle = 2.0 * std::numbers::pi * static_cast<double>(frequency * i) / kDirections;
       sum += profile[i] * std::polar(1.0, angle);
     }
-    signature.magnitudes[static_cast<std::size_t>(frequency)] = static_cast<float>(std::abs(sum) / kDirections);
+    signature.magnitudes[frequency] = static_cast<float>(std::abs(sum) / kDirections);
   }
   return signature;
 }
@@ -52,23 +51,44 @@ std::vector<PlaceSignature> placeSignatures(const map::SurfaceLayer& surface) {
   std::vector<PlaceSignature> signatures;
   signatures.reserve(surface.viewpoints().size());
   for (const auto& viewpoint : surface.viewpoints()) {
-    signatures.push_back(spectrumOf(profileFrom(Eigen::Vector2f(viewpoint.x, viewpoint.y).cast<double>(), surface)));
+    signatures.push_back(spectrumOf(profileFrom(viewpoint.position_in_submap(), surface)));
   }
   return signatures;
 }
 
-double dissimilarity(const std::vector<PlaceSignature>& a, const std::vector<PlaceSignature>& b) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& left : a) {
-    for (const auto& right : b) {
-      double sum = 0.0;
-      for (std::size_t i = 0; i < left.magnitudes.size(); ++i) {
-        sum += static_cast<double>(std::abs(left.magnitudes[i] - right.magnitudes[i]));
+Likeness mostAlike(const std::vector<PlaceSignature>& from, const std::vector<PlaceSignature>& to) {
+  Likeness best;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    for (std::size_t j = 0; j < to.size(); ++j) {
+      double difference = 0.0;
+      for (std::size_t k = 0; k < PlaceSignature::kFrequencies; ++k) {
+        difference += static_cast<double>(std::abs(from[i].magnitudes[k] - to[j].magnitudes[k]));
       }
-      least = std::min(least, sum);
+      if (difference < best.difference) best = {difference, i, j};
     }
   }
-  return least;
+  return best;
+}
+
+geometry::Pose2 alignViewpoints(const map::SurfaceLayer& from, const map::SurfaceLayer& to, const Likeness& likeness) {
+  const Eigen::Vector2d there = from.viewpoints()[likeness.from].position_in_submap();
+  const Eigen::Vector2d here = to.viewpoints()[likeness.to].position_in_submap();
+  const auto profileThere = profileFrom(there, from);
+  const auto profileHere = profileFrom(here, to);
+  std::size_t turn = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t shift = 0; shift < kDirections; ++shift) {
+    double difference = 0.0;
+    for (std::size_t i = 0; i < kDirections; ++i)
+      difference += std::abs(profileThere[(i + shift) % kDirections] - profileHere[i]);
+    if (difference < least) {
+      least = difference;
+      turn = shift;
+    }
+  }
+  const double theta = geometry::normalizeAngle(2.0 * std::numbers::pi * static_cast<double>(turn) / kDirections);
+  const Eigen::Vector2d translation = there - Eigen::Rotation2Dd(theta) * here;
+  return {translation.x(), translation.y(), theta};
 }
 
 }  // namespace prodomos::localization

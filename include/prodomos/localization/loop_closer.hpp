@@ -69,6 +69,7 @@ class LoopCloser {
     base::SubMapId id;
     double rank = 0.0;  ///< the least is the best
     SearchWindow window;
+    std::optional<Likeness> likeness{};  ///< where the window is to lie, for those that look alike
   };
 
   const Looks& looksOf(base::SubMapId id) const;

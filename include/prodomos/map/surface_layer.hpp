@@ -32,6 +32,8 @@ class SurfaceLayer final : public MapLayer {
   struct Viewpoint {
     float x = 0.0F;  ///< metres, in the sub-map
     float y = 0.0F;
+
+    Eigen::Vector2d position_in_submap() const { return {static_cast<double>(x), static_cast<double>(y)}; }
   };
 
   /// The surface around a place: a stretch of wall, or no more than a heap of points.
