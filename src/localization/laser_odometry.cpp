@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include <cmath>
+#include <numbers>
 
 namespace prodomos::localization {
 
@@ -25,13 +26,25 @@ constexpr double kAlike = 20.0;
 // Looked for around the prior, where what the prior leads to does not fit.
 constexpr double kSearchReach = 0.6;  // metres
 constexpr double kSearchTurn = 0.5;   // radians
+constexpr double kLostTurn = std::numbers::pi;
 constexpr double kSearchResolution = 0.1;
 constexpr int kSearchLevels = 4;
 constexpr double kBetter = 0.1;  // share of points that another place must explain more
 constexpr std::size_t kLeastPoints = 10;
+constexpr std::size_t kSteps = 6;     // scans over which the wheels are asked, too
+constexpr double kLateWheels = 0.05;  // metres between what they tell over one step and over all
 
 double wayOf(const geometry::Pose2& step) {
   return std::hypot(step.x, step.y) + kMetresPerRadian * std::abs(step.theta);
+}
+
+void savePose(base::ByteWriter& out, const geometry::Pose2& pose) {
+  out << pose.x << pose.y << pose.theta;
+}
+geometry::Pose2 loadPose(base::ByteReader& in) {
+  geometry::Pose2 pose;
+  in >> pose.x >> pose.y >> pose.theta;
+  return pose;
 }
 
 Eigen::Vector2d operator*(const geometry::Pose2& T_a_b, const Eigen::Vector2d& point_in_b) {
@@ -60,70 +73,88 @@ LaserOdometry::LaserOdometry(const LaserOdometryConfig& config) : config_(config
 LaserOdometry::Estimate LaserOdometry::track(std::span<const Eigen::Vector2d> points_in_body,
                                              const std::optional<geometry::Pose2>& T_last_body) {
   Estimate estimate;
-  if (hasBegun_) {
-    const auto prior = predict(T_last_body);
-    const auto match = find(points_in_body, prior);
-    estimate.isLost = points_in_body.size() < kLeastPoints || match.explained < config_.leastExplained;
-    const auto& T_travel_now = estimate.isLost ? prior.T_map_body : match.T_map_body;
-    lastStep_ = geometry::inverse(T_travel_body_) * T_travel_now;
-    T_travel_body_ = T_travel_now;
-
-    const double way = wayOf(lastStep_);
-    way_ += way;
-    const double metre = config_.slip * config_.slip;
-    const Eigen::Matrix3d wheels = Eigen::Vector3d::Constant(1.0 / metre).asDiagonal();
-    const Eigen::Matrix3d known = estimate.isLost ? wheels : Eigen::Matrix3d(wheels + match.information / kAlike);
-    estimate.covariance = way * known.inverse();
-    if (estimate.isLost) estimate.covariance += prior.information.inverse();
+  if (steps_.empty()) {
+    steps_.emplace_back();
+    remember(points_in_body, true);
+    return estimate;
   }
-  estimate.T_travel_body = T_travel_body_;
+  const auto last = steps_.back().T_travel_body;
+  // Without wheels, the robot is taken to go on as it did.
+  hasWheels_ = T_last_body.has_value();
+  const auto before = steps_.size() > 1 ? steps_[steps_.size() - 2].T_travel_body : last;
+  T_wheels_body_ = T_wheels_body_ * T_last_body.value_or(geometry::inverse(before) * last);
+
+  const auto match = find(points_in_body);
+  estimate.isLost = points_in_body.size() < kLeastPoints || match.explained < config_.leastExplained;
+  estimate.T_travel_body = match.T_map_body;
+  steps_.push_back({match.T_map_body, T_wheels_body_});
+  if (steps_.size() > kSteps) steps_.pop_front();
+
+  const double way = wayOf(geometry::inverse(last) * match.T_map_body);
+  way_ += way;
+  const Eigen::Matrix3d wheels = Eigen::Matrix3d::Identity() / (config_.slip * config_.slip);
+  const Eigen::Matrix3d known = estimate.isLost ? wheels : Eigen::Matrix3d(wheels + match.information / kAlike);
+  estimate.covariance = way * known.inverse();
   // A robot that is lost goes on mapping from where it believes to be, or it would never find itself again.
-  remember(points_in_body);
+  remember(points_in_body, false);
   return estimate;
 }
 
-PosePrior LaserOdometry::predict(const std::optional<geometry::Pose2>& T_last_body) const {
-  const auto step = T_last_body.value_or(lastStep_);
+/// Where the wheels lead from an earlier scan on.
+PosePrior LaserOdometry::predict(const Step& from) const {
+  const auto step = geometry::inverse(from.T_wheels_body) * T_wheels_body_;
   double translation = kFreeStep;
   double rotation = kFreeTurn;
-  if (T_last_body) {
+  if (hasWheels_) {
     const double slip = config_.slip * wayOf(step);
     translation = kLeastStep + slip;
     rotation = kLeastStep + slip + config_.slip * std::abs(step.theta);
   }
-  PosePrior prior{.T_map_body = T_travel_body_ * step};
+  PosePrior prior{.T_map_body = from.T_travel_body * step};
   prior.information.diagonal() << 1.0 / (translation * translation), 1.0 / (translation * translation),
       1.0 / (rotation * rotation);
   return prior;
 }
 
-/// From the prior on; where that leads nowhere, from the best place around it.
-Match LaserOdometry::find(std::span<const Eigen::Vector2d> points_in_body, const PosePrior& prior) const {
-  const auto match = matchScan(points_in_body, older_, prior, config_.match);
-  if (match.explained >= 2.0 * config_.leastExplained || points_in_body.size() < kLeastPoints) return match;
-  const LikelihoodField field(older_, kSearchResolution, kSearchLevels);
-  const auto found =
-      searchPose(points_in_body, field, {prior.T_map_body, kSearchReach, kSearchTurn}, config_.leastExplained);
-  if (!found) return match;
-  const PosePrior loose{.T_map_body = found->T_map_body};
-  const auto other = matchScan(points_in_body, older_, loose, config_.match);
-  return other.explained > match.explained + kBetter ? other : match;
+/// From where the wheels lead; where that does not fit, from the best place around. What is no better than the wheels'
+/// word gives that.
+Match LaserOdometry::find(std::span<const Eigen::Vector2d> points_in_body) const {
+  const auto prior = predict(steps_.back());
+  auto best = matchScan(points_in_body, older_, prior, config_.match);
+  if (points_in_body.size() < kLeastPoints) return {.T_map_body = prior.T_map_body};
+  const auto take = [&](const Match& other, double lead) {
+    if (other.explained > best.explained + lead) best = other;
+  };
+  // Wheels are read late at times, and then tell two steps at once: over several steps they are right again.
+  const auto longPrior = predict(steps_.front());
+  const auto difference = geometry::inverse(prior.T_map_body) * longPrior.T_map_body;
+  if (hasWheels_ && wayOf(difference) > kLateWheels) take(matchScan(points_in_body, older_, longPrior, config_.match), 0.0);
+
+  if (best.explained < 2.0 * config_.leastExplained) {
+    const LikelihoodField field(older_, kSearchResolution, kSearchLevels);
+    const double turn = best.explained < config_.leastExplained ? kLostTurn : kSearchTurn;
+    if (const auto found = searchPose(points_in_body, field, {best.T_map_body, kSearchReach, turn}, best.explained)) {
+      take(matchScan(points_in_body, older_, {.T_map_body = found->T_map_body}, config_.match), kBetter);
+    }
+  }
+  if (best.explained < config_.leastExplained) best.T_map_body = longPrior.T_map_body;
+  return best;
 }
 
-void LaserOdometry::remember(std::span<const Eigen::Vector2d> points_in_body) {
-  const auto step = geometry::inverse(T_travel_key_) * T_travel_body_;
-  const bool isKey = !hasBegun_ || std::hypot(step.x, step.y) > config_.keyDistance ||
-                     std::abs(step.theta) > config_.keyTurn;
+void LaserOdometry::remember(std::span<const Eigen::Vector2d> points_in_body, bool isFirst) {
+  const auto& T_travel_body = steps_.back().T_travel_body;
+  const auto step = geometry::inverse(T_travel_key_) * T_travel_body;
+  const bool isKey =
+      isFirst || std::hypot(step.x, step.y) > config_.keyDistance || std::abs(step.theta) > config_.keyTurn;
   if (!isKey) return;
-  hasBegun_ = true;
-  T_travel_key_ = T_travel_body_;
+  T_travel_key_ = T_travel_body;
   if (way_ > config_.reach) {
     older_ = std::move(younger_);
     younger_ = map::SurfaceLayer();
     way_ -= 0.5 * config_.reach;
   }
   for (const auto& point : points_in_body) {
-    const Eigen::Vector2d place = T_travel_body_ * point;
+    const Eigen::Vector2d place = T_travel_body * point;
     older_.insert(place);
     if (way_ > 0.5 * config_.reach) younger_.insert(place);
   }
@@ -132,15 +163,24 @@ void LaserOdometry::remember(std::span<const Eigen::Vector2d> points_in_body) {
 void LaserOdometry::save(base::ByteWriter& out) const {
   older_.save(out);
   younger_.save(out);
-  for (const auto& pose : {T_travel_body_, T_travel_key_, lastStep_}) out << pose.x << pose.y << pose.theta;
-  out << way_ << hasBegun_;
+  out << static_cast<std::uint64_t>(steps_.size());
+  for (const auto& step : steps_) {
+    savePose(out, step.T_travel_body);
+    savePose(out, step.T_wheels_body);
+  }
+  savePose(out, T_wheels_body_);
+  savePose(out, T_travel_key_);
+  out << hasWheels_ << way_;
 }
 
 void LaserOdometry::load(base::ByteReader& in) {
   older_.load(in, older_.version());
   younger_.load(in, younger_.version());
-  for (auto* pose : {&T_travel_body_, &T_travel_key_, &lastStep_}) in >> pose->x >> pose->y >> pose->theta;
-  in >> way_ >> hasBegun_;
+  steps_.resize(in.read<std::uint64_t>());
+  for (auto& step : steps_) step = {loadPose(in), loadPose(in)};
+  T_wheels_body_ = loadPose(in);
+  T_travel_key_ = loadPose(in);
+  in >> hasWheels_ >> way_;
 }
 
 }  // namespace prodomos::localization

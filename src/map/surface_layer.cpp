@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <string>
 
 namespace prodomos::map {
 
@@ -14,6 +14,54 @@ namespace {
 
 constexpr int kGrowthMargin = 64;  // cells; storage grows in strides, not point by point
 constexpr Rgba kColor{192, 57, 43, 255};
+
+/// Throws base::Error where the value, which may be not a number, lies elsewhere.
+void require(const char* what, double value, double least, double most) {
+  if (value >= least && value <= most) return;
+  throw base::Error("expected " + std::string(what) + " from " + std::to_string(least) + " to " + std::to_string(most) +
+                    ", found " + std::to_string(value));
+}
+
+/// Weighted sums of the points around a place, as offsets from it in metres.
+class Moments {
+ public:
+  bool empty() const { return sum_ <= 0.0F; }
+
+  void add(const Eigen::Vector2f& offset, float count) {
+    constexpr float kReachSquared = static_cast<float>(SurfaceLayer::kReach * SurfaceLayer::kReach);
+    const float nearness = 1.0F - offset.squaredNorm() / kReachSquared;
+    if (nearness <= 0.0F) return;
+    constexpr float kTrusted = 8.0F;  // points; a mean of more is as good
+    const float weight = nearness * nearness * std::min(count, kTrusted);
+    sum_ += weight;
+    moment_ += weight * offset;
+    xx_ += weight * offset.x() * offset.x();
+    xy_ += weight * offset.x() * offset.y();
+    yy_ += weight * offset.y() * offset.y();
+  }
+
+  /// The line through the points, by their principal axes.
+  SurfaceLayer::Patch patchAround(const Eigen::Vector2d& place) const {
+    const Eigen::Vector2d mean = (moment_ / sum_).cast<double>();
+    const double xx = static_cast<double>(xx_ / sum_) - mean.x() * mean.x();
+    const double xy = static_cast<double>(xy_ / sum_) - mean.x() * mean.y();
+    const double yy = static_cast<double>(yy_ / sum_) - mean.y() * mean.y();
+    const double middle = 0.5 * (xx + yy);
+    const double spread = std::hypot(0.5 * (xx - yy), xy);
+    const double along = 0.5 * std::atan2(2.0 * xy, xx - yy);  // direction of the greatest extent
+    return {.mean = place + mean,
+            .normal = {-std::sin(along), std::cos(along)},
+            .thickness = std::sqrt(std::max(middle - spread, 0.0)),
+            .extent = std::sqrt(std::max(middle + spread, 0.0))};
+  }
+
+ private:
+  float sum_ = 0.0F;
+  Eigen::Vector2f moment_ = Eigen::Vector2f::Zero();
+  float xx_ = 0.0F;
+  float xy_ = 0.0F;
+  float yy_ = 0.0F;
+};
 
 }  // namespace
 
@@ -55,16 +103,14 @@ void SurfaceLayer::add(const Eigen::Vector2d& point_in_submap, float count) {
     return;
   }
   auto& point = points_[static_cast<std::size_t>(index)];
-  Point mean = point;
-  mean.count = std::min(point.count + count, kMostCount);
-  mean.x += (added.x - point.x) * (count / mean.count);
-  mean.y += (added.y - point.y) * (count / mean.count);
+  const float share = count / (point.count + count);
+  const Point mean{point.x + share * (added.x - point.x), point.y + share * (added.y - point.y),
+                   std::min(point.count + count, kMostCount)};
   // Rounding must not carry the mean over the border of its cell, where it would not be found again.
   if (cellOf(mean) == cell) point = mean;
 }
 
 std::optional<SurfaceLayer::Patch> SurfaceLayer::patchAt(const Eigen::Vector2d& place_in_submap) const {
-  if (points_.empty()) return std::nullopt;
   const auto first = geometry::cellAt(place_in_submap.x() - kReach, place_in_submap.y() - kReach, config_.resolution);
   const auto last = geometry::cellAt(place_in_submap.x() + kReach, place_in_submap.y() + kReach, config_.resolution);
   const int x0 = std::max(first.x, box_.first.x);
@@ -72,41 +118,17 @@ std::optional<SurfaceLayer::Patch> SurfaceLayer::patchAt(const Eigen::Vector2d& 
   const int y0 = std::max(first.y, box_.first.y);
   const int y1 = std::min(last.y, box_.last.y);
   const Eigen::Vector2f place = place_in_submap.cast<float>();
-
-  float sum = 0.0F;
-  Eigen::Vector2f moment = Eigen::Vector2f::Zero();
-  float xx = 0.0F;
-  float xy = 0.0F;
-  float yy = 0.0F;
+  Moments moments;
   for (int y = y0; y <= y1; ++y) {
-    const auto* row = index_.data() + static_cast<std::ptrdiff_t>(y - box_.first.y) * box_.width() - box_.first.x;
+    const auto* row = index_.data() + offset({box_.first.x, y});
     for (int x = x0; x <= x1; ++x) {
-      if (row[x] == kNone) continue;
-      const auto& point = points_[static_cast<std::size_t>(row[x])];
-      const Eigen::Vector2f offset = Eigen::Vector2f(point.x, point.y) - place;
-      constexpr float kReachSquared = static_cast<float>(kReach * kReach);
-      const float nearness = 1.0F - offset.squaredNorm() / kReachSquared;
-      if (nearness <= 0.0F) continue;
-      const float weight = nearness * nearness * std::min(point.count, 8.0F);
-      sum += weight;
-      moment += weight * offset;
-      xx += weight * offset.x() * offset.x();
-      xy += weight * offset.x() * offset.y();
-      yy += weight * offset.y() * offset.y();
+      const auto index = row[x - box_.first.x];
+      if (index == kNone) continue;
+      const auto& point = points_[static_cast<std::size_t>(index)];
+      moments.add(Eigen::Vector2f(point.x, point.y) - place, point.count);
     }
   }
-  if (sum <= 0.0F) return std::nullopt;
-  const Eigen::Vector2d mean = (moment / sum).cast<double>();
-  const double cxx = static_cast<double>(xx / sum) - mean.x() * mean.x();
-  const double cxy = static_cast<double>(xy / sum) - mean.x() * mean.y();
-  const double cyy = static_cast<double>(yy / sum) - mean.y() * mean.y();
-  const double middle = 0.5 * (cxx + cyy);
-  const double spread = std::hypot(0.5 * (cxx - cyy), cxy);
-  const double along = 0.5 * std::atan2(2.0 * cxy, cxx - cyy);  // direction of the greatest extent
-  return Patch{.mean = place_in_submap + mean,
-               .normal = {-std::sin(along), std::cos(along)},
-               .thickness = std::sqrt(std::max(middle - spread, 0.0)),
-               .extent = std::sqrt(std::max(middle + spread, 0.0))};
+  return moments.empty() ? std::nullopt : std::optional(moments.patchAround(place_in_submap));
 }
 
 bool SurfaceLayer::isNear(const Eigen::Vector2d& place_in_submap) const {
@@ -132,28 +154,45 @@ bool SurfaceLayer::integrate(const PlacedReading& placed) {
 }
 
 void SurfaceLayer::merge(const MapLayer& other, const geometry::Pose3& T_this_other) {
-  for (const auto& point : dynamic_cast<const SurfaceLayer&>(other).points_) {
-    const Eigen::Vector2d position = point.position_in_submap();
-    add((T_this_other * Eigen::Vector3d(position.x(), position.y(), 0.0)).head<2>(), point.count);
-  }
+  const auto moved = [&](const Eigen::Vector2d& position) -> Eigen::Vector2d {
+    return (T_this_other * Eigen::Vector3d(position.x(), position.y(), 0.0)).head<2>();
+  };
+  const auto& surface = dynamic_cast<const SurfaceLayer&>(other);
+  for (const auto& point : surface.points_) add(moved(point.position_in_submap()), point.count);
+  for (const auto& viewpoint : surface.viewpoints_) addViewpoint(moved(viewpoint.position_in_submap()));
 }
 
 void SurfaceLayer::save(base::ByteWriter& out) const {
   out << config_.resolution << points_ << viewpoints_;
 }
 
-void SurfaceLayer::load(base::ByteReader& in, int) {
-  in >> config_.resolution >> points_ >> viewpoints_;
-  if (!(config_.resolution > 0.0)) throw base::Error("expected a resolution above zero");
-  box_ = {};
-  index_.clear();
-  for (const auto& point : points_) {
-    if (!point.position_in_submap().allFinite() || !(point.count > 0.0F)) throw base::Error("expected finite points");
+void SurfaceLayer::load(base::ByteReader& in, int version) {
+  if (version != 1) throw base::Error("expected version 1 of a surface layer, found " + std::to_string(version));
+  SurfaceLayer loaded(config_);
+  in >> loaded.config_.resolution >> loaded.points_ >> loaded.viewpoints_;
+  require("resolution", loaded.config_.resolution, 1e-4, 1e3);
+  const double farthest = 1e9 * loaded.config_.resolution;  // metres; cells are counted in 32 bits
+  for (const auto& viewpoint : loaded.viewpoints_) {
+    require("x of a viewpoint", static_cast<double>(viewpoint.x), -farthest, farthest);
+    require("y of a viewpoint", static_cast<double>(viewpoint.y), -farthest, farthest);
   }
   geometry::CellBox known;
-  for (const auto& point : points_)
-    known.add(cellOf(point));
-  if (!known.empty()) grow(known);
+  for (const auto& point : loaded.points_) {
+    require("x of a point", static_cast<double>(point.x), -farthest, farthest);
+    require("y of a point", static_cast<double>(point.y), -farthest, farthest);
+    require("count of a point", static_cast<double>(point.count), 1.0, static_cast<double>(kMostCount));
+    known.add(loaded.cellOf(point));
+  }
+  constexpr double kMostCells = 1e8;
+  if (!known.empty()) {
+    require("number of cells", static_cast<double>(known.width()) * known.height(), 0.0, kMostCells);
+    loaded.grow(known);
+  }
+  for (std::size_t i = 0; i < loaded.points_.size(); ++i) {
+    if (loaded.index_[loaded.offset(loaded.cellOf(loaded.points_[i]))] != static_cast<std::int32_t>(i))
+      throw base::Error("expected one surface point in each cell, found two");
+  }
+  *this = std::move(loaded);
 }
 
 Drawing SurfaceLayer::draw() const {

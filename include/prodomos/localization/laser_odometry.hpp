@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <deque>
 #include <optional>
 #include <span>
 
@@ -48,18 +49,24 @@ class LaserOdometry {
   void load(base::ByteReader& in);
 
  private:
-  PosePrior predict(const std::optional<geometry::Pose2>& T_last_body) const;
-  Match find(std::span<const Eigen::Vector2d> points_in_body, const PosePrior& prior) const;
-  void remember(std::span<const Eigen::Vector2d> points_in_body);
+  /// A scan's pose, and where the wheels alone would have led.
+  struct Step {
+    geometry::Pose2 T_travel_body;
+    geometry::Pose2 T_wheels_body;
+  };
+
+  PosePrior predict(const Step& from) const;
+  Match find(std::span<const Eigen::Vector2d> points_in_body) const;
+  void remember(std::span<const Eigen::Vector2d> points_in_body, bool isFirst);
 
   LaserOdometryConfig config_;
   map::SurfaceLayer older_;    // what scans are matched with
   map::SurfaceLayer younger_;  // takes its place once that has grown to config_.reach
-  geometry::Pose2 T_travel_body_;
+  std::deque<Step> steps_;  // the latest last
+  geometry::Pose2 T_wheels_body_;
   geometry::Pose2 T_travel_key_;
-  geometry::Pose2 lastStep_;
+  bool hasWheels_ = false;
   double way_ = 0.0;  // metres that older_ has grown along
-  bool hasBegun_ = false;
 };
 
 }  // namespace prodomos::localization
