@@ -42,7 +42,9 @@ class Search {
 
   std::optional<FoundPose> run(double leastScore) {
     if (points_.empty()) return std::nullopt;
-    best_.bound = static_cast<int>(std::ceil(leastScore * LikelihoodField::kMost * static_cast<double>(points_.size()))) - 1;
+    const double most = LikelihoodField::kMost * static_cast<double>(points_.size());
+    constexpr double kRounding = 1e-6;  // a score that was found must be found again
+    best_.bound = static_cast<int>(std::ceil(leastScore * most - kRounding)) - 1;
     int level = field_.levels() - 1;
     while (level > 0 && (1 << level) > 2 * reach_ + 1) --level;
     std::vector<Branch> roots;
@@ -53,8 +55,7 @@ class Search {
     }
     explore(std::move(roots), level);
     if (!found_) return std::nullopt;
-    return FoundPose{poseOf(best_), static_cast<double>(best_.bound) /
-                                        (LikelihoodField::kMost * static_cast<double>(points_.size()))};
+    return FoundPose{poseOf(best_), best_.bound / most};
   }
 
  private:

@@ -51,8 +51,13 @@ NormalEquations linearize(std::span<const Eigen::Vector2d> points, const map::Su
   return sum;
 }
 
-geometry::Pose2 moved(const geometry::Pose2& pose, const Eigen::Vector3d& step) {
-  return pose * geometry::Pose2{step.x(), step.y(), step.z()};
+/// Adds what the prior tells of the pose. Deviations from it are in its own axes; the body has turned since.
+void addPrior(const PosePrior& prior, const geometry::Pose2& pose, NormalEquations& sum) {
+  const auto deviation = geometry::inverse(prior.T_map_body) * pose;
+  Eigen::Matrix3d jacobian = Eigen::Matrix3d::Identity();
+  jacobian.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(deviation.theta).toRotationMatrix();
+  sum.information += jacobian.transpose() * prior.information * jacobian;
+  sum.gradient += jacobian.transpose() * prior.information * Eigen::Vector3d(deviation.x, deviation.y, deviation.theta);
 }
 
 }  // namespace
@@ -62,18 +67,16 @@ Match matchScan(std::span<const Eigen::Vector2d> points_in_body, const map::Surf
   Match match{.T_map_body = prior.T_map_body};
   double outlier = std::max(map::SurfaceLayer::kReach, config.outlier);
   for (int i = 0; i < config.iterations; ++i) {
-    const auto equations = linearize(points_in_body, surface, match.T_map_body, config.noise, outlier);
-    const auto deviation = geometry::inverse(prior.T_map_body) * match.T_map_body;
-    const Eigen::Vector3d fromPrior(deviation.x, deviation.y, deviation.theta);
-    constexpr double kDamping = 1e-6;
-    const Eigen::Matrix3d information =
-        equations.information + prior.information + kDamping * Eigen::Matrix3d::Identity();
-    const Eigen::Vector3d step = -information.ldlt().solve(equations.gradient + prior.information * fromPrior);
-    match.T_map_body = moved(match.T_map_body, step);
+    auto equations = linearize(points_in_body, surface, match.T_map_body, config.noise, outlier);
     match.information = equations.information;
-    const auto count = static_cast<double>(std::max<std::size_t>(points_in_body.size(), 1));
-    match.explained = equations.onSurface / count;
+    match.explained = equations.onSurface / static_cast<double>(std::max<std::size_t>(points_in_body.size(), 1));
     match.residual = equations.onSurface > 0 ? std::sqrt(equations.squares / equations.onSurface) : 0.0;
+
+    addPrior(prior, match.T_map_body, equations);
+    constexpr double kDamping = 1e-6;
+    equations.information.diagonal().array() += kDamping;
+    const Eigen::Vector3d step = -equations.information.ldlt().solve(equations.gradient);
+    match.T_map_body = match.T_map_body * geometry::Pose2{step.x(), step.y(), step.z()};
     const bool isSettled = step.head<2>().norm() < 1e-4 && std::abs(step.z()) < 1e-5;
     if (isSettled && outlier <= config.outlier) break;
     outlier = std::max(config.outlier, 0.7 * outlier);
