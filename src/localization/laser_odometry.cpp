@@ -130,7 +130,9 @@ Match LaserOdometry::find(std::span<const Eigen::Vector2d> points_in_body) const
   const auto difference = geometry::inverse(prior.T_map_body) * longPrior.T_map_body;
   if (hasWheels_ && wayOf(difference) > kLateWheels) take(matchScan(points_in_body, older_, longPrior, config_.match), 0.0);
 
-  if (best.explained < 2.0 * config_.leastExplained) {
+  // Wheels lead near enough, but where they have lost it.
+  const double leastExplained = hasWheels_ ? config_.leastExplained : 2.0 * config_.leastExplained;
+  if (best.explained < leastExplained) {
     const LikelihoodField field(older_, kSearchResolution, kSearchLevels);
     const double turn = best.explained < config_.leastExplained ? kLostTurn : kSearchTurn;
     if (const auto found = searchPose(points_in_body, field, {best.T_map_body, kSearchReach, turn}, best.explained)) {

@@ -16,7 +16,7 @@ constexpr double kSigmas = 3.0;
 constexpr double kLeastReach = 0.5;  // metres
 constexpr double kLeastTurn = 0.1;   // radians
 constexpr double kMostTurn = 0.5;
-constexpr double kMostReach = 4.0;   // metres; what is known worse is found by its looks
+constexpr double kMostReach = 10.0;  // metres; what is known worse is found by its looks
 // Viewpoints that look alike lie that near, and are turned that well.
 constexpr double kAlikeReach = 1.5;  // metres
 constexpr double kAlikeTurn = 0.2;   // radians

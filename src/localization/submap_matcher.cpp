@@ -16,6 +16,7 @@ constexpr double kSmallReach = 0.5;  // metres
 constexpr double kSameReach = 1.0;   // metres, radians; poses nearer than this are one place
 // Points of one wall err together: by what the sub-map itself is bent. So many of them count as one.
 constexpr double kCorrelated = 20.0;
+constexpr double kConflictPerOverlap = 0.5;
 
 std::vector<Eigen::Vector2d> positions(const map::SurfaceLayer& surface) {
   std::vector<Eigen::Vector2d> positions;
@@ -75,7 +76,9 @@ std::optional<SubMapMatch> matchSubMaps(const MatchedLayers& from, const Matched
   SubMapMatch result{.T_from_to = match.T_map_body, .information = match.information / kCorrelated};
   result.overlap = agreeing / std::max(count, 1.0);
   result.conflict = conflicting / std::max(agreeing + conflicting, 1.0);
-  const bool isSame = result.overlap >= config.leastOverlap && result.conflict <= config.mostConflict &&
+  // Where much agrees, something may have moved, or be a bush that some beams pass.
+  const double mostConflict = config.mostConflict + kConflictPerOverlap * (result.overlap - config.leastOverlap);
+  const bool isSame = result.overlap >= config.leastOverlap && result.conflict <= mostConflict &&
                       agreeing * to.surface->resolution() >= config.leastWall;
   return isSame ? std::optional(result) : std::nullopt;
 }

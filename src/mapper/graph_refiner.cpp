@@ -140,7 +140,7 @@ void GraphRefiner::close(const map::SubMap& finished) {
   }
   if (loops.empty()) return;
   joinComponents();
-  refine();
+  refine(true);
 }
 
 void GraphRefiner::tie(const localization::Loop& loop, bool joins) {
@@ -193,9 +193,14 @@ void GraphRefiner::joinComponents() {
   }
 }
 
-void GraphRefiner::refine() {
+void GraphRefiner::settle() {
+  const auto isLoop = [](const Tie& tie) { return tie.edge.kind == map::EdgeKind::kLoop; };
+  if (findsLoops_ && std::ranges::any_of(ties_, isLoop)) refine(false);
+}
+
+void GraphRefiner::refine(bool isIncremental) {
   auto graph = poseGraph(true);
-  const auto report = localization::optimize(graph);
+  const auto report = localization::optimize(graph, {.isIncremental = isIncremental});
   std::size_t constraint = 0;
   for (auto& tie : ties_) {
     if (tie.state == TieState::kBetweenComponents) continue;

@@ -27,6 +27,8 @@ class GraphRefiner {
   void add(const map::Node& node, const std::optional<map::Edge>& edge);
   /// A sub-map is finished: its layers are final.
   void close(const map::SubMap& finished);
+  /// The log has ended: weighs all loops against each other once more, from scratch.
+  void settle();
   /// Moves all sub-maps of a session, as a whole.
   void move(base::SessionId session, const geometry::Pose3& T_after_before);
 
@@ -65,7 +67,7 @@ class GraphRefiner {
 
   void tie(const localization::Loop& loop, bool joins);
   void joinComponents();
-  void refine();
+  void refine(bool isIncremental);
 
   const map::MapStore& store_;
   bool findsLoops_;

@@ -316,7 +316,11 @@ void Mapper::Impl::finish(const sensors::EndOfLog& end) {
   if (!end.fault.empty()) report.addFault(end.fault);
 
   map::MapChange change;
-  if (running_) refine();
+  if (running_) {
+    refine();
+    refiner_.settle();
+    running_->refine(refiner_.T_map_submap(running_->node().id));
+  }
   const auto last = std::exchange(running_, std::nullopt);
   if (last) last->addTo(change);
   refiner_.addTo(change, base::SubMapId{-1}, true);
