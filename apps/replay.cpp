@@ -8,13 +8,11 @@
 #include "commands.hpp"
 #include "overwriting.hpp"
 #include "progress_bar.hpp"
+#include "replay_report.hpp"
 #include "text.hpp"
 
-#include <nlohmann/json.hpp>
-#include <sys/resource.h>
-
+#include <algorithm>
 #include <array>
-#include <fstream>
 #include <iostream>
 
 namespace prodomos::apps {
@@ -26,6 +24,7 @@ namespace fs = std::filesystem;
 struct ReplayOptions {
   std::string log;
   std::string output;
+  std::string into;
   base::ConfigInput config;
   bool resume = false;
   std::string poses;
@@ -83,8 +82,19 @@ void keepAside(const fs::path& map) {
   std::cerr << "prodomos: " << map.string() << " was there already and is now " << aside.string() << '\n';
 }
 
+/// A map that a further log is to grow.
+map::MapStore openToGrow(const fs::path& map) {
+  const auto view = map::MapView::open(map);
+  if (!view.sessions().empty() && view.sessions().back().state != map::SessionState::kComplete) {
+    throw base::UsageError(base::expectedFound("--into", "a map whose last replay was finished",
+                                               map.string() + ", which was interrupted: --resume it first"));
+  }
+  return map::MapStore::openForWriting(map);
+}
+
 map::MapStore openStore(const ReplayOptions& options) {
   const fs::path output = options.output;
+  if (!options.into.empty() && !options.resume) return openToGrow(output);
   std::error_code unknown;
   const bool exists = fs::exists(output, unknown);
   if (exists && options.resume) return map::MapStore::openForWriting(output);
@@ -115,62 +125,26 @@ mapper::MapperConfig configToResume(const ReplayOptions& options, const map::Ses
   return stored;
 }
 
-double peakMemoryMb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
-
-struct Result {
-  mapper::Report report;
-  std::map<std::string, double, std::less<>> seconds;
-  std::size_t places = 0;
-  std::size_t floors = 0;
-};
-
-void writeReport(const Result& result, const std::string& path) {
-  const auto& report = result.report;
-  const nlohmann::json out = {{"readings",
-                               {{"read", report.read},
-                                {"used", report.used},
-                                {"used_by_kind", report.usedByKind},
-                                {"skipped", report.skippedByReason}}},
-                              {"faults", {{"count", report.faultCount}, {"first", report.faults}}},
-                              {"submaps", report.submaps},
-                              {"places", result.places},
-                              {"distance_m", report.distance},
-                              {"seconds", result.seconds},
-                              {"peak_memory_mb", peakMemoryMb()}};
-  std::ofstream file(path);
-  file << out.dump(2) << '\n';
-  if (!file.flush()) throw base::FileError(path + ": the report cannot be written");
-}
-
-void printReport(const Result& result, const ReplayOptions& options, const sensors::SourceInfo& log) {
-  const auto& report = result.report;
-  std::cout << log.path << " (" << log.kind << ")\n";
-  std::cout << "  readings  " << grouped(report.read) << " read, " << grouped(report.used) << " used\n";
-  for (const auto& [kind, count] : report.usedByKind)
-    std::cout << "            " << grouped(count) << "  " << kind << '\n';
-  for (const auto& [reason, count] : report.skippedByReason) {
-    std::cout << "  skipped   " << grouped(count) << "  " << reason << '\n';
-  }
-  std::cout << "  map       " << report.submaps << (report.submaps == 1 ? " sub-map" : " sub-maps") << ", "
-            << result.places << (result.places == 1 ? " place" : " places") << ", " << result.floors
-            << (result.floors == 1 ? " floor" : " floors") << ", " << fixed(report.distance, 1) << " m travelled\n";
-  std::cout << "  time      " << fixed(result.seconds.at("total"), 2) << " s (";
-  const char* comma = "";
-  for (const auto& [stage, seconds] : result.seconds) {
-    if (stage == "total") continue;
-    std::cout << comma << stage << " " << fixed(seconds, 2);
-    comma = ", ";
-  }
-  std::cout << "), " << fixed(peakMemoryMb(), 0) << " MB of memory\n";
-  std::cout << "  written   " << options.output << ", " << fileSize(fs::file_size(options.output)) << '\n';
+ReplayResult resultOf(mapper::Mapper& mapper, const map::MapView& view) {
+  const auto& graph = view.graph();
+  const auto edges = graph.edges();
+  ReplayResult result{.report = mapper.report(),
+                      .seconds = mapper.times().seconds(),
+                      .poses = view.sessions().back().poses,
+                      .places = graph.places().size(),
+                      .floors = view.floors().size()};
+  result.loops = static_cast<std::size_t>(
+      std::ranges::count_if(edges, [&](base::EdgeId id) { return graph.getEdge(id).kind == map::EdgeKind::kLoop; }));
+  if (view.sessions().size() > 1) result.meetsEarlier = mapper.meetsEarlierSessions();
+  return result;
 }
 
 void replayLog(ReplayOptions& options) {
   applyShorthands(options);
+  if (options.output.empty() == options.into.empty()) {
+    throw base::UsageError("replay takes either -o MAP, a new map, or --into MAP, one that is to grow");
+  }
+  if (options.output.empty()) options.output = options.into;
   const auto begin = std::chrono::steady_clock::now();
 
   // All that can be wrong is found before anything is written.
@@ -194,7 +168,7 @@ void replayLog(ReplayOptions& options) {
   const auto log = source->info();
   for (const auto& remark : log.remarks) std::cerr << "prodomos: " << log.path << ": " << remark << '\n';
 
-  Result result;
+  ReplayResult result;
   {
     auto store = openStore(options);
     mapper::Mapper mapper(store, config, log);
@@ -203,13 +177,12 @@ void replayLog(ReplayOptions& options) {
       mapper::replay(*source, mapper,
                      [&](const base::Progress& progress) { bar.show(progress, mapper.report().read); });
     }
-    const auto view = store.view();
-    result = {mapper.report(), mapper.times().seconds(), view.graph().places().size(), view.floors().size()};
+    result = resultOf(mapper, store.view());
     store.close();
   }
   result.seconds["total"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!options.report.empty()) writeReport(result, options.report);
-  if (!options.quiet) printReport(result, options, log);
+  if (!options.quiet) printReport(result, log, options.output);
 
   if (result.report.faultCount > 0) {
     std::string faults;
@@ -231,17 +204,23 @@ void addReplay(CLI::App& program) {
       "LOG is an MRPT rawlog, a TUM or plain RGB-D folder, or a CARMEN log; it is recognised by its content.\n"
       "Examples:\n"
       "  prodomos replay office.rawlog -o office.prodomos\n"
+      "  prodomos replay next_day.rawlog --into office.prodomos\n"
       "  prodomos replay rgbd_dataset_freiburg1_room -o room.prodomos --camera 517.3,516.5,318.6,255.3 --set "
       "grid.resolution=0.02");
   auto options = std::make_shared<ReplayOptions>();
   command->add_option("LOG", options->log, "the log")->required();
-  command->add_option("-o,--output", options->output, "the map file")->required();
+  command->add_option("-o,--output", options->output, "the map file");
+  command->add_option("--into", options->into,
+                      "a map that the log is to grow; it finds itself where both show the same");
   command->add_option("--config", options->config.file, "YAML configuration (prodomos config prints the defaults)");
   command->add_option("--set", options->config.assignments, "section.key=value, over the configuration; repeatable")
       ->allow_extra_args(false)
       ->take_all();
   command->add_flag("--resume", options->resume, "go on with a map whose replay was interrupted");
-  command->add_option("--poses", options->poses, "odometry, recorded, or a file of `time x y z qx qy qz qw` lines");
+  command->add_option(
+      "--poses", options->poses,
+      "estimated, odometry, recorded, or a file of `time x y z qx qy qz qw` lines (auto: recorded where the log has "
+      "them, else estimated)");
   command->add_option("--sensor", options->sensors, "labels of the sensors to use, with commas between");
   command->add_option("--start", options->start, "time stamp to begin at, seconds");
   command->add_option("--end", options->end, "time stamp to end at, seconds");

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kMetresPerRadian = 0.3;  // turning shows new things too
 // What is known of the next pose without wheels: a person or robot changes its speed no faster between two scans.
-constexpr double kFreeStep = 0.1;   // metres
-constexpr double kFreeTurn = 0.1;   // radians
+constexpr double kFreeStep = 0.1;    // metres
+constexpr double kFreeTurn = 0.1;    // radians
 constexpr double kLeastStep = 5e-3;  // metres, radians; no wheel tells better
 
 // Errors of one match are as good as independent of those of a match one metre on, where other points see other parts
@@ -56,7 +56,8 @@ Eigen::Vector2d operator*(const geometry::Pose2& T_a_b, const Eigen::Vector2d& p
 void describe(base::ConfigVisitor& visitor, LaserOdometryConfig& config) {
   visitor.section("laser_odometry", "where a robot with a laser goes, scan by scan");
   visitor.key("reach", config.reach, "m", {1.0, 1000.0}, "way that the local map holds, which scans are matched with");
-  visitor.key("key_distance", config.keyDistance, "m", {0.0, 10.0}, "way between scans that are added to the local map");
+  visitor.key("key_distance", config.keyDistance, "m", {0.0, 10.0},
+              "way between scans that are added to the local map");
   visitor.key("key_turn", config.keyTurn, "rad", {0.0, 3.2}, "… or turn");
   visitor.key("max_range", config.maxRange, "m", {1.0, 500.0}, "farther points are not matched");
   visitor.key("slip", config.slip, "", {0.001, 1.0}, "standard deviation of wheel odometry over the way it tells");
@@ -128,7 +129,8 @@ Match LaserOdometry::find(std::span<const Eigen::Vector2d> points_in_body) const
   // Wheels are read late at times, and then tell two steps at once: over several steps they are right again.
   const auto longPrior = predict(steps_.front());
   const auto difference = geometry::inverse(prior.T_map_body) * longPrior.T_map_body;
-  if (hasWheels_ && wayOf(difference) > kLateWheels) take(matchScan(points_in_body, older_, longPrior, config_.match), 0.0);
+  if (hasWheels_ && wayOf(difference) > kLateWheels)
+    take(matchScan(points_in_body, older_, longPrior, config_.match), 0.0);
 
   // Wheels lead near enough, but where they have lost it.
   const double leastExplained = hasWheels_ ? config_.leastExplained : 2.0 * config_.leastExplained;

@@ -41,7 +41,8 @@ void describe(base::ConfigVisitor& visitor, LoopCloserConfig& config) {
   visitor.key("near", config.near, "", {0, 1000}, "sub-maps that are tried for being near");
   visitor.key("alike", config.alike, "", {0, 1000}, "sub-maps that are tried for looking alike, wherever they are");
   visitor.key("least_way", config.leastWay, "m", {0.0, 1e6}, "travelled between two sub-maps that a loop may join");
-  visitor.key("least_overlap", match.leastOverlap, "", {0.0, 1.0}, "share of either's surface that the other must show");
+  visitor.key("least_overlap", match.leastOverlap, "", {0.0, 1.0},
+              "share of either's surface that the other must show");
   visitor.key("least_wall", match.leastWall, "m", {0.0, 1000.0}, "of wall that both must show");
   visitor.key("most_conflict", match.mostConflict, "", {0.0, 1.0},
               "share of the compared surface that may lie where the other has seen free floor");
@@ -79,8 +80,7 @@ bool LoopCloser::knows(base::SubMapId id) const {
 }
 
 std::vector<Loop> LoopCloser::find(const LoopPlace& newest, std::span<const LoopPlace> others,
-                                   std::span<const base::SubMapId> linked,
-                                   const FindCovariance& findCovariance) const {
+                                   std::span<const base::SubMapId> linked, const FindCovariance& findCovariance) const {
   std::vector<LoopPlace> open;
   for (const auto& other : others) {
     const bool isNext = other.session == newest.session && std::abs(newest.way - other.way) < config_.leastWay;
@@ -115,7 +115,9 @@ std::vector<LoopCloser::Candidate> LoopCloser::nearOnes(const LoopPlace& newest,
     const auto& otherLooks = looksOf(other.id);
     const double distance = (other.T_map_submap * otherLooks.centre_in_submap - centre).norm();
     if (distance > looks.radius + otherLooks.radius + kMostReach) continue;
-    near.push_back({.id = other.id, .rank = distance, .window = {.centre = geometry::inverse(other.T_map_submap) * newest.T_map_submap}});
+    near.push_back({.id = other.id,
+                    .rank = distance,
+                    .window = {.centre = geometry::inverse(other.T_map_submap) * newest.T_map_submap}});
   }
   // What is known of a pair costs more to tell than how far apart they lie.
   keepBest(near, 4 * config_.near);

@@ -28,10 +28,12 @@ void describe(base::ConfigVisitor& visitor, MapperConfig& config) {
   visitor.key("least_height", config.floor.leastHeight, "m", {0.5, 20.0}, "least height between two floors");
   visitor.endSection();
 
-  visitor.section("odometry_noise", "standard deviations of poses that are told, by wheels or else; they grow with the root of the way");
+  visitor.section("odometry_noise",
+                  "standard deviations of poses that are told, by wheels or else; they grow with the root of the way");
   visitor.key("translation_per_metre", config.odometryNoise.translationPerMetre, "m", {1e-6, 10.0}, "after a metre");
   visitor.key("rotation_per_metre", config.odometryNoise.rotationPerMetre, "rad", {1e-6, 10.0}, "after a metre");
-  visitor.key("rotation_per_radian", config.odometryNoise.rotationPerRadian, "rad", {1e-6, 10.0}, "after a radian turned");
+  visitor.key("rotation_per_radian", config.odometryNoise.rotationPerRadian, "rad", {1e-6, 10.0},
+              "after a radian turned");
   visitor.endSection();
 
   describe(visitor, config.laserOdometry);

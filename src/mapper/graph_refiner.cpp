@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mapper/graph_refiner.hpp"
 
-#include "mapper/graph_bytes.hpp"
-
 #include "prodomos/base/error.hpp"
+
+#include "mapper/graph_bytes.hpp"
 
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <numeric>
+#include <set>
 
 namespace prodomos::mapper {
 
@@ -24,13 +26,15 @@ constexpr double kLeastMove = 1e-3;  // metres, radians
 
 // Frames of sub-maps stand on the floor, upright: so well is known how two of one floor lie to each other apart from
 // what is seen from above.
-constexpr double kFloorSigma = 0.05;   // metres
+constexpr double kFloorSigma = 0.05;    // metres
 constexpr double kUprightSigma = 0.02;  // radians
 
 // Two components are joined where so many loops agree how.
 constexpr int kWitnesses = 2;
 constexpr double kAgreement = 0.5;      // metres
 constexpr double kAgreementTurn = 0.1;  // radians
+
+constexpr double kBeside = 40.0;  // metres; two sub-maps hardly reach that far towards each other
 
 /// x, y and yaw of six.
 constexpr std::array<int, 3> kPlanar = {0, 1, 5};
@@ -244,15 +248,22 @@ std::vector<int> GraphRefiner::components() const {
   return parent;
 }
 
+geometry::Pose3 GraphRefiner::T_map_beside() const {
+  geometry::Pose3 beside = geometry::Pose3::Identity();
+  for (const auto& vertex : vertices_) {
+    const double x = vertex.node.T_map_submap.translation().x();
+    beside.translation().x() = std::max(beside.translation().x(), x + kBeside);
+  }
+  return beside;
+}
+
 bool GraphRefiner::meetsAnother(base::SessionId session) const {
   const auto component = components();
-  for (std::size_t i = 0; i < vertices_.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const bool isBetween = (vertices_[i].node.session == session) != (vertices_[j].node.session == session);
-      if (isBetween && component[i] == component[j]) return true;
-    }
-  }
-  return false;
+  std::set<int> own;
+  std::set<int> others;
+  for (std::size_t i = 0; i < vertices_.size(); ++i)
+    (vertices_[i].node.session == session ? own : others).insert(component[i]);
+  return std::ranges::any_of(own, [&](int number) { return others.contains(number); });
 }
 
 std::vector<localization::LoopPlace> GraphRefiner::places() const {
@@ -288,7 +299,8 @@ localization::MatchedLayers GraphRefiner::layersOf(base::SubMapId id) {
   const auto found = std::ranges::find(recentLayers_, id, &decltype(recentLayers_)::value_type::first);
   if (found != recentLayers_.end()) return found->second;
   const auto read = [&]<typename Layer>(std::shared_ptr<const Layer>& layer) {
-    layer = std::dynamic_pointer_cast<const Layer>(std::shared_ptr<const map::MapLayer>(store_.findLayer(id, Layer::kTypeId)));
+    layer = std::dynamic_pointer_cast<const Layer>(
+        std::shared_ptr<const map::MapLayer>(store_.findLayer(id, Layer::kTypeId)));
   };
   localization::MatchedLayers layers;
   read(layers.surface);

@@ -33,6 +33,8 @@ class GraphRefiner {
   void move(base::SessionId session, const geometry::Pose3& T_after_before);
 
   const geometry::Pose3& T_map_submap(base::SubMapId id) const;
+  /// A place to the right of all sub-maps, for a session that has not met them yet; the origin where there are none.
+  geometry::Pose3 T_map_beside() const;
   /// Does a chain of edges lead from this session to another one?
   bool meetsAnother(base::SessionId session) const;
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mapper/localizer.hpp"
 
-#include "mapper/graph_bytes.hpp"
-
 #include "prodomos/io/trajectory_file.hpp"
 #include "prodomos/map/level_beams.hpp"
+
+#include "mapper/graph_bytes.hpp"
 
 #include <cmath>
 
@@ -137,8 +137,7 @@ Localizer::Located Localizer::trackLaser(const sensors::Reading& reading, const 
     if (beam.hit && (beam.end - *origin).norm() <= maxRange_) points_in_body.push_back(beam.end);
   }
   const auto step = stepOfWheels(reading.time);
-  const auto estimate =
-      laser_.track(points_in_body, step ? std::optional(geometry::toPose2(*step)) : std::nullopt);
+  const auto estimate = laser_.track(points_in_body, step ? std::optional(geometry::toPose2(*step)) : std::nullopt);
   lost_ += estimate.isLost ? 1 : 0;
   Located located{.T_travel_body = geometry::toPose3(estimate.T_travel_body)};
   const double way = (T_travel_last_.inverse() * located.T_travel_body).translation().norm();
@@ -147,8 +146,8 @@ Localizer::Located Localizer::trackLaser(const sensors::Reading& reading, const 
 }
 
 Localizer::Located Localizer::trackRgbd(const sensors::Reading& reading, const sensors::Mask* movers) {
-  const auto estimate = rgbd_.track(reading.time, std::get<sensors::RgbdFrame>(reading.data), movers,
-                                    stepOfWheels(reading.time));
+  const auto estimate =
+      rgbd_.track(reading.time, std::get<sensors::RgbdFrame>(reading.data), movers, stepOfWheels(reading.time));
   lost_ += estimate.isLost ? 1 : 0;
   Located located;
   if (estimate.T_world_before) {

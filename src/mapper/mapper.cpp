@@ -3,9 +3,9 @@
 #include "prodomos/mapper/mapper.hpp"
 
 #include "mapper/floor_tracker.hpp"
-#include "mapper/localizer.hpp"
 #include "mapper/graph_bytes.hpp"
 #include "mapper/graph_refiner.hpp"
+#include "mapper/localizer.hpp"
 #include "mapper/running_submap.hpp"
 
 #include <Eigen/LU>
@@ -33,6 +33,10 @@ bool tellsDistances(const sensors::ReadingData& data) {
   return std::holds_alternative<sensors::LaserScan>(data) || std::holds_alternative<sensors::PointCloud>(data);
 }
 
+std::string nobodyTakes(const sensors::Reading& reading) {
+  return "no layer takes a " + std::string(kindName(reading.data));
+}
+
 /// Poses that are told, by wheels or else, are followed to the letter.
 localization::LoopCloserConfig loopsOf(const MapperConfig& config, const Localizer& localizer) {
   auto loops = config.loops;
@@ -52,6 +56,7 @@ class Mapper::Impl {
   ResumePoint resumePoint() const { return {report.read, waitingWhenInterrupted_}; }
   void restore(std::vector<std::pair<std::int64_t, sensors::Reading>>&& waiting);
   map::MapView view() const;
+  bool meetsEarlierSessions() const { return refiner_.meetsAnother(session_.id); }
 
   Report report;
   base::StageTimes times;
@@ -68,6 +73,7 @@ class Mapper::Impl {
 
   void placeWaiting(bool all);
   void place(const sensors::Reading& reading);
+  void integrate(const sensors::Reading& reading);
   void travelTo(const Localizer::Located& located, const sensors::Reading& reading);
   void beginTravel(const geometry::Pose3& T_travel_body, base::Time time);
   void standUpright(const geometry::Pose3& T_upright_travel);
@@ -100,7 +106,7 @@ class Mapper::Impl {
   std::vector<std::int64_t> waitingWhenInterrupted_;
   GraphRefiner refiner_;
   std::optional<RunningSubMap> running_;  // none until the first reading is placed
-  double clearance_ = 0.0;  // height of the body above the floor
+  double clearance_ = 0.0;                // height of the body above the floor
   geometry::Pose3 T_travel_lastBody_ = geometry::Pose3::Identity();
 };
 
@@ -190,8 +196,7 @@ void Mapper::Impl::placeWaiting(bool all) {
 
 /// One reading's way up: where was the robot, in which sub-map is that, and what do its layers take?
 void Mapper::Impl::place(const sensors::Reading& reading) {
-  const auto nobodyTakesIt = [&] { skip("no layer takes a " + std::string(kindName(reading.data))); };
-  if (!tellsDistances(reading.data)) return nobodyTakesIt();
+  if (!tellsDistances(reading.data)) return skip(nobodyTakes(reading));
   const auto located = [&] {
     const auto timing = times.measure("localize");
     return localizer_.locate(reading, nullptr);
@@ -199,8 +204,13 @@ void Mapper::Impl::place(const sensors::Reading& reading) {
   report.lost = localizer_.lost();
   if (!located) return skip("no recorded pose near");
   travelTo(*located, reading);
-  const map::PlacedReading placed{reading, running_->T_submap_body(located->T_travel_body)};
-  if (!running_->integrate(placed, located->T_travel_body, times)) return nobodyTakesIt();
+  integrate(reading);
+}
+
+/// What the robot sees where it is now.
+void Mapper::Impl::integrate(const sensors::Reading& reading) {
+  const map::PlacedReading placed{reading, running_->T_submap_body(T_travel_lastBody_)};
+  if (!running_->integrate(placed, T_travel_lastBody_, times)) return skip(nobodyTakes(reading));
   use(reading);
   session_.end = reading.time;
 }
@@ -225,13 +235,16 @@ void Mapper::Impl::travelTo(const Localizer::Located& located, const sensors::Re
   // Doors and stairs crossed, once they are detected, are one more reason to pass on, with the entity as its cause.
 }
 
-/// The map frame: below the robot where it was first placed, x its heading, z up.
+/// The map frame: below the robot where it was first placed, x its heading, z up. A further session begins beside the
+/// map, until it is found in it.
 void Mapper::Impl::beginTravel(const geometry::Pose3& T_travel_body, base::Time time) {
   // Poses in a world are those of the camera or robot itself, over a floor that is z = 0.
   const double height = T_travel_body.translation().z();
   const bool isOverFloor = localizer_.knowsHeight() && height >= 0.0 && height <= kMostClearance;
   clearance_ = isOverFloor ? height : 0.0;
-  session_.T_map_travel = geometry::toPose3(geometry::toPose2(T_travel_body), height - clearance_).inverse();
+  const geometry::Pose3 T_travel_first = geometry::toPose3(geometry::toPose2(T_travel_body), height - clearance_);
+  session_.T_map_travel =
+      (localizer_.isEstimated() ? refiner_.T_map_beside() : geometry::Pose3::Identity()) * T_travel_first.inverse();
   session_.begin = time;
   T_travel_lastBody_ = T_travel_body;
   running_.emplace(nodeBelow(T_travel_body, time), std::nullopt, config_.layers);
@@ -369,9 +382,15 @@ void Mapper::Impl::load(const map::Checkpoint& checkpoint) {
 }
 
 void Mapper::Impl::restore(std::vector<std::pair<std::int64_t, sensors::Reading>>&& waiting) {
-  waitingWhenInterrupted_.clear();
+  const auto interrupted = std::exchange(waitingWhenInterrupted_, {});
   requireOpen();
   for (auto& [item, reading] : waiting) waiting_.push_back({item, std::move(reading)});
+  // The first was on its way up when the checkpoint was made: it has been located, and began the running sub-map.
+  if (!interrupted.empty() && !waiting_.empty() && waiting_.front().item == interrupted.front()) {
+    integrate(waiting_.front().reading);
+    localizer_.forgetBefore(waiting_.front().reading.time);
+    waiting_.pop_front();
+  }
   placeWaiting(false);
 }
 
@@ -403,6 +422,9 @@ map::MapView Mapper::view() const {
 }
 const Report& Mapper::report() const {
   return impl_->report;
+}
+bool Mapper::meetsEarlierSessions() const {
+  return impl_->meetsEarlierSessions();
 }
 base::StageTimes& Mapper::times() {
   return impl_->times;

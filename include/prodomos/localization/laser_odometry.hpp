@@ -40,8 +40,8 @@ class LaserOdometry {
 
   explicit LaserOdometry(const LaserOdometryConfig& config = {});
 
-  /// Scans in the order of their time, seen from above in the body's frame. `T_last_body`: the way since the last scan as
-  /// wheel odometry tells it; without, the robot is taken to go on as it did.
+  /// Scans in the order of their time, seen from above in the body's frame. `T_last_body`: the way since the last scan
+  /// as wheel odometry tells it; without, the robot is taken to go on as it did.
   Estimate track(std::span<const Eigen::Vector2d> points_in_body, const std::optional<geometry::Pose2>& T_last_body);
 
   /// Bit by bit, so that a resumed run goes on exactly as the one that was interrupted.
@@ -62,7 +62,7 @@ class LaserOdometry {
   LaserOdometryConfig config_;
   map::SurfaceLayer older_;    // what scans are matched with
   map::SurfaceLayer younger_;  // takes its place once that has grown to config_.reach
-  std::deque<Step> steps_;  // the latest last
+  std::deque<Step> steps_;     // the latest last
   geometry::Pose2 T_wheels_body_;
   geometry::Pose2 T_travel_key_;
   bool hasWheels_ = false;

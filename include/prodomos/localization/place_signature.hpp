@@ -18,7 +18,7 @@ struct PlaceSignature {
   std::array<float, kFrequencies> magnitudes{};  ///< metres; the first is the mean distance
 };
 
-/// One for each viewpoint of the layer.
+/// One for each viewpoint of the layer; none where it has no surface.
 std::vector<PlaceSignature> placeSignatures(const map::SurfaceLayer& surface);
 
 /// The two viewpoints, one of either layer, that look the most alike.

@@ -55,6 +55,8 @@ class Mapper {
   /// open the file with map::MapView::open().
   map::MapView view() const;
   const Report& report() const;
+  /// Has the session been found in what the map held before it? Poses are in one frame then.
+  bool meetsEarlierSessions() const;
   /// Wall seconds by stage; what feeds the mapper may add its own.
   base::StageTimes& times();
 
