@@ -19,7 +19,7 @@ constexpr double kFarthest = 12.0;  // metres
 
 using Profile = std::array<double, kDirections>;
 
-/// Distances to the nearest surface; where none was seen, as far as the neighbouring directions tell.
+/// Distances to the nearest surface; kFarthest where none was seen.
 Profile profileFrom(const Eigen::Vector2d& viewpoint, const map::SurfaceLayer& surface) {
   Profile profile;
   profile.fill(kFarthest);
@@ -49,6 +49,7 @@ PlaceSignature spectrumOf(const Profile& profile) {
 
 std::vector<PlaceSignature> placeSignatures(const map::SurfaceLayer& surface) {
   std::vector<PlaceSignature> signatures;
+  if (surface.points().empty()) return signatures;
   signatures.reserve(surface.viewpoints().size());
   for (const auto& viewpoint : surface.viewpoints()) {
     signatures.push_back(spectrumOf(profileFrom(viewpoint.position_in_submap(), surface)));

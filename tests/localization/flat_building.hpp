@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -60,12 +61,16 @@ class FlatBuilding {
     addWall(from, to);
   }
 
-  /// Pieces of furniture within a rectangle around the origin of `T_building_room`.
-  void addFurniture(base::Random& random, int count, const Pose2& T_building_room, double length, double width) {
-    for (int i = 0; i < count; ++i) {
-      const Pose2 T_room_piece{random.uniform(-0.42, 0.42) * length, random.uniform(-0.42, 0.42) * width,
-                               random.integer(0, 3) == 0 ? random.uniform(0.0, 1.5) : 0.0};
-      addBox(T_building_room * T_room_piece, random.uniform(0.3, 1.2), random.uniform(0.3, 0.7));
+  /// Pieces of furniture in a rectangle around the origin, some askew; none in the way of who stands at `clear`.
+  void addFurniture(base::Random& random, int count, double length, double width, std::span<const Pose2> clear) {
+    while (count > 0) {
+      const Pose2 piece{random.uniform(-0.45, 0.45) * length, random.uniform(-0.45, 0.45) * width,
+                        random.integer(0, 3) == 0 ? random.uniform(0.0, 1.5) : 0.0};
+      const bool isInTheWay = std::ranges::any_of(
+          clear, [&](const Pose2& place) { return std::hypot(place.x - piece.x, place.y - piece.y) < 0.9; });
+      if (isInTheWay) continue;
+      addBox(piece, random.uniform(0.3, 1.2), random.uniform(0.3, 0.7));
+      --count;
     }
   }
 
