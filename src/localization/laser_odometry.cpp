@@ -6,8 +6,11 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 
 namespace prodomos::localization {
 
@@ -76,7 +79,7 @@ LaserOdometry::Estimate LaserOdometry::track(std::span<const Eigen::Vector2d> po
   Estimate estimate;
   if (steps_.empty()) {
     steps_.emplace_back();
-    remember(points_in_body, true);
+    remember(points_in_body);
     return estimate;
   }
   const auto last = steps_.back().T_travel_body;
@@ -91,13 +94,13 @@ LaserOdometry::Estimate LaserOdometry::track(std::span<const Eigen::Vector2d> po
   steps_.push_back({match.T_map_body, T_wheels_body_});
   if (steps_.size() > kSteps) steps_.pop_front();
 
-  const double way = wayOf(geometry::inverse(last) * match.T_map_body);
+  const double way = estimate.isLost ? wayOf(geometry::inverse(last) * match.T_map_body) : gained();
   way_ += way;
   const Eigen::Matrix3d wheels = Eigen::Matrix3d::Identity() / (config_.slip * config_.slip);
   const Eigen::Matrix3d known = estimate.isLost ? wheels : Eigen::Matrix3d(wheels + match.information / kAlike);
   estimate.covariance = way * known.inverse();
   // A robot that is lost goes on mapping from where it believes to be, or it would never find itself again.
-  remember(points_in_body, false);
+  remember(points_in_body);
   return estimate;
 }
 
@@ -145,13 +148,22 @@ Match LaserOdometry::find(std::span<const Eigen::Vector2d> points_in_body) const
   return best;
 }
 
-void LaserOdometry::remember(std::span<const Eigen::Vector2d> points_in_body, bool isFirst) {
+/// What the latest scan lies farther from the key than all since. Who stands still or goes to and fro errs no more for
+/// it: the map that scans are matched with stays the same.
+double LaserOdometry::gained() {
+  const double distance = wayOf(geometry::inverse(T_travel_key_) * steps_.back().T_travel_body);
+  const double before = std::exchange(farthest_, std::max(farthest_, distance));
+  return farthest_ - before;
+}
+
+void LaserOdometry::remember(std::span<const Eigen::Vector2d> points_in_body) {
   const auto& T_travel_body = steps_.back().T_travel_body;
   const auto step = geometry::inverse(T_travel_key_) * T_travel_body;
-  const bool isKey =
-      isFirst || std::hypot(step.x, step.y) > config_.keyDistance || std::abs(step.theta) > config_.keyTurn;
+  const bool isKey = older_.points().empty() || std::hypot(step.x, step.y) > config_.keyDistance ||
+                     std::abs(step.theta) > config_.keyTurn;
   if (!isKey) return;
   T_travel_key_ = T_travel_body;
+  farthest_ = 0.0;
   if (way_ > config_.reach) {
     older_ = std::move(younger_);
     younger_ = map::SurfaceLayer();
@@ -174,17 +186,20 @@ void LaserOdometry::save(base::ByteWriter& out) const {
   }
   savePose(out, T_wheels_body_);
   savePose(out, T_travel_key_);
-  out << hasWheels_ << way_;
+  out << hasWheels_ << way_ << farthest_;
 }
 
 void LaserOdometry::load(base::ByteReader& in) {
   older_.load(in, older_.version());
   younger_.load(in, younger_.version());
-  steps_.resize(in.read<std::uint64_t>());
+  const auto count = in.read<std::uint64_t>();
+  if (count > kSteps)
+    throw base::Error("expected at most " + std::to_string(kSteps) + " steps, found " + std::to_string(count));
+  steps_.resize(count);
   for (auto& step : steps_) step = {loadPose(in), loadPose(in)};
   T_wheels_body_ = loadPose(in);
   T_travel_key_ = loadPose(in);
-  in >> hasWheels_ >> way_;
+  in >> hasWheels_ >> way_ >> farthest_;
 }
 
 }  // namespace prodomos::localization

@@ -57,7 +57,8 @@ class LaserOdometry {
 
   PosePrior predict(const Step& from) const;
   Match find(std::span<const Eigen::Vector2d> points_in_body) const;
-  void remember(std::span<const Eigen::Vector2d> points_in_body, bool isFirst);
+  double gained();
+  void remember(std::span<const Eigen::Vector2d> points_in_body);
 
   LaserOdometryConfig config_;
   map::SurfaceLayer older_;    // what scans are matched with
@@ -66,7 +67,8 @@ class LaserOdometry {
   geometry::Pose2 T_wheels_body_;
   geometry::Pose2 T_travel_key_;
   bool hasWheels_ = false;
-  double way_ = 0.0;  // metres that older_ has grown along
+  double way_ = 0.0;       // metres that older_ has grown along
+  double farthest_ = 0.0;  // metres from the key, of the scans since
 };
 
 }  // namespace prodomos::localization
