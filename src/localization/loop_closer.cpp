@@ -88,13 +88,17 @@ std::vector<Loop> LoopCloser::find(const LoopPlace& newest, std::span<const Loop
     if (other.id != newest.id && !isNext && !isLinked && other.floor == newest.floor) open.push_back(other);
   }
   auto candidates = nearOnes(newest, open, findCovariance);
+  const auto isCovered = [near = candidates](const Candidate& candidate) {
+    const auto found = std::ranges::find(near, candidate.id, &Candidate::id);
+    return found != near.end() && found->window.reach < kMostReach && found->window.turn < kMostTurn;
+  };
   for (auto& candidate : alikeOnes(newest, open)) {
-    const bool isThere = std::ranges::find(candidates, candidate.id, &Candidate::id) != candidates.end();
-    if (!isThere) candidates.push_back(candidate);
+    if (!isCovered(candidate)) candidates.push_back(candidate);
   }
   std::vector<Loop> loops;
   const auto layers = findLayers_(newest.id);
   for (const auto& candidate : candidates) {
+    if (std::ranges::find(loops, candidate.id, &Loop::from) != loops.end()) continue;
     const auto others = findLayers_(candidate.id);
     auto window = candidate.window;
     if (candidate.likeness) window.centre = alignViewpoints(*others.surface, *layers.surface, *candidate.likeness);
@@ -141,6 +145,7 @@ std::vector<LoopCloser::Candidate> LoopCloser::alikeOnes(const LoopPlace& newest
   std::vector<Candidate> strangers;
   for (const auto& other : others) {
     const auto likeness = mostAlike(looksOf(other.id).signatures, looks.signatures);
+    if (std::isinf(likeness.difference)) continue;  // one of them has seen nothing
     auto& candidates = other.component == newest.component ? alike : strangers;
     candidates.push_back({.id = other.id,
                           .rank = likeness.difference,
