@@ -133,8 +133,10 @@ ReplayResult resultOf(mapper::Mapper& mapper, const map::MapView& view) {
                       .poses = view.sessions().back().poses,
                       .places = graph.places().size(),
                       .floors = view.floors().size()};
-  result.loops = static_cast<std::size_t>(
-      std::ranges::count_if(edges, [&](base::EdgeId id) { return graph.getEdge(id).kind == map::EdgeKind::kLoop; }));
+  result.loops = static_cast<std::size_t>(std::ranges::count_if(edges, [&](base::EdgeId id) {
+    const auto kind = graph.getEdge(id).kind;
+    return kind == map::EdgeKind::kLoop || kind == map::EdgeKind::kOverlap;
+  }));
   if (view.sessions().size() > 1) result.meetsEarlier = mapper.meetsEarlierSessions();
   return result;
 }

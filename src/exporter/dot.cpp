@@ -28,6 +28,8 @@ std::string_view edgeStyle(map::EdgeKind kind) {
       return "style=dotted, color=\"#2563eb\"";
     case map::EdgeKind::kLift:
       return "style=dotted, color=\"#7c3aed\"";
+    case map::EdgeKind::kOverlap:
+      return "style=dotted, color=\"#93b4f5\"";
   }
   return "";
 }

@@ -19,6 +19,7 @@ constexpr map::Rgba kTrajectoryColor{59, 130, 200, 255};
 constexpr map::Rgba kDoorColor{217, 119, 11, 255};
 constexpr map::Rgba kStairsColor{124, 58, 237, 255};
 constexpr map::Rgba kLoopColor{37, 99, 235, 255};
+constexpr map::Rgba kOverlapColor{37, 99, 235, 90};
 constexpr map::Rgba kHumanColor{219, 39, 119, 255};
 constexpr map::Rgba kObjectColor{146, 64, 14, 255};
 constexpr map::Rgba kPredictedColor{22, 163, 74, 255};

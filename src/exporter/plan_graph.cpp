@@ -85,6 +85,8 @@ Style edgeStyle(map::EdgeKind kind) {
       return stroked(kLoopColor, 1.4, {1.0, 3.5});
     case map::EdgeKind::kLift:
       return stroked(kStairsColor, 2.0, {1.0, 4.5});
+    case map::EdgeKind::kOverlap:
+      return stroked(kOverlapColor, 0.8, {1.0, 3.5});
   }
   return {};
 }

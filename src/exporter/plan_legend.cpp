@@ -86,12 +86,13 @@ void addEdgeEntries(const PlanContents& plan, std::vector<Entry>& entries) {
                            graph.getNode(edge.to).kind == map::SubMapKind::kPredicted;
     if (!predicted) kinds.insert(edge.kind);
   }
-  constexpr std::array<std::pair<map::EdgeKind, std::string_view>, 5> kNames = {
+  constexpr std::array<std::pair<map::EdgeKind, std::string_view>, 6> kNames = {
       {{map::EdgeKind::kTravelled, "travelled"},
        {map::EdgeKind::kDoor, "through a door"},
        {map::EdgeKind::kStairs, "over stairs"},
        {map::EdgeKind::kLoop, "loop closure"},
-       {map::EdgeKind::kLift, "by lift"}}};
+       {map::EdgeKind::kLift, "by lift"},
+       {map::EdgeKind::kOverlap, "overlap"}}};
   for (const auto& [kind, name] : kNames) {
     if (kinds.contains(kind)) entries.push_back(lineEntry(std::string(name), edgeStyle(kind)));
   }

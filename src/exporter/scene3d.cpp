@@ -153,6 +153,8 @@ map::Rgba edgeColor(map::EdgeKind kind) {
       return kStairsColor;
     case map::EdgeKind::kLoop:
       return kLoopColor;
+    case map::EdgeKind::kOverlap:
+      return kOverlapColor;
   }
   return kInkColor;
 }

@@ -34,6 +34,26 @@ void appendLevelBeams(const sensors::LaserScan& scan, const geometry::Pose3& T_g
 
 namespace {
 
+/// The same where the body moved while the scanner turned: each beam's end as seen from where the body was at the
+/// first.
+void appendSweptBeams(const sensors::LaserScan& scan, const PlacedReading& placed, double noReturn,
+                      std::vector<Beam>& beams) {
+  noReturn = std::min(scan.maxRange, noReturn);
+  const double beamTime = scan.sweepTime / static_cast<double>(std::max<std::size_t>(scan.ranges.size(), 2) - 1);
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+    const float range = scan.ranges[i];
+    if (!(range >= 0.0F) || isMover(placed.movers, i)) continue;
+    const bool hit = range < sensors::LaserScan::kNoReturn;
+    const double length = hit ? static_cast<double>(range) : noReturn;
+    const double angle = scan.firstAngle + static_cast<double>(i) * scan.angleStep;
+    const Eigen::Vector3d moved = placed.velocity * (beamTime * static_cast<double>(i));
+    const geometry::Pose3 T_first_now = geometry::toPose3({moved.x(), moved.y(), moved.z()});
+    const Eigen::Vector3d end_in_body =
+        scan.T_body_sensor * Eigen::Vector3d(length * std::cos(angle), length * std::sin(angle), 0.0);
+    beams.push_back({(placed.T_submap_body * (T_first_now * end_in_body)).head<2>(), hit});
+  }
+}
+
 /// Points by their direction from the sensor, as seen from above.
 class DirectionBins {
  public:
@@ -105,7 +125,11 @@ std::optional<Eigen::Vector2d> appendLevelBeams(const PlacedReading& placed, con
   geometry::Pose3 T_grid_sensor = placed.T_submap_body;
   if (const auto* scan = std::get_if<sensors::LaserScan>(&placed.reading.data)) {
     T_grid_sensor = T_grid_sensor * scan->T_body_sensor;
-    appendLevelBeams(*scan, T_grid_sensor, noReturn, placed.movers, beams);
+    if (scan->sweepTime > 0.0 && !placed.velocity.isZero()) {
+      appendSweptBeams(*scan, placed, noReturn, beams);
+    } else {
+      appendLevelBeams(*scan, T_grid_sensor, noReturn, placed.movers, beams);
+    }
   } else if (const auto* frame = std::get_if<sensors::RgbdFrame>(&placed.reading.data);
              frame && !frame->depth.empty()) {
     T_grid_sensor = T_grid_sensor * frame->T_body_camera;

@@ -185,7 +185,7 @@ TopologicalGraph readGraph(const Database& database) {
     edge.id = getId<base::EdgeId>(link, 0);
     edge.from = getId<base::SubMapId>(link, 1);
     edge.to = getId<base::SubMapId>(link, 2);
-    edge.kind = fromName(link.get<std::string>(3), EdgeKind::kLift);
+    edge.kind = fromName(link.get<std::string>(3), EdgeKind::kOverlap);
     edge.T_from_to = getPose(link, 4);
     edge.information = symmetricFrom(link.get<std::string>(11));
     edge.cause = findId<base::EntityId>(link, 12);

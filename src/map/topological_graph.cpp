@@ -27,9 +27,16 @@ struct WithinPlace {
   bool operator()(const Link& link) const {
     const auto kind = (*graph)[link].kind;
     const auto isPredicted = [&](Vertex vertex) { return (*graph)[vertex].kind == SubMapKind::kPredicted; };
-    return (kind == EdgeKind::kTravelled || kind == EdgeKind::kLoop) && !isPredicted(source(link, *graph)) &&
-           !isPredicted(target(link, *graph));
+    return (kind == EdgeKind::kTravelled || kind == EdgeKind::kLoop || kind == EdgeKind::kOverlap) &&
+           !isPredicted(source(link, *graph)) && !isPredicted(target(link, *graph));
   }
+};
+
+/// Keeps what a robot can go along.
+struct Passable {
+  const Graph* graph = nullptr;
+
+  bool operator()(const Link& link) const { return (*graph)[link].kind != EdgeKind::kOverlap; }
 };
 
 template <typename IdType>
@@ -197,7 +204,8 @@ std::optional<Route> TopologicalGraph::shortestRoute(base::SubMapId from, base::
   std::vector<double> distance(num_vertices(graph));
   std::vector<Vertex> before(num_vertices(graph));
   const auto index = get(boost::vertex_index, graph);
-  dijkstra_shortest_paths(graph, goal,
+  const boost::filtered_graph<Graph, Passable> passable(graph, Passable{&graph});
+  dijkstra_shortest_paths(passable, goal,
                           boost::weight_map(boost::make_assoc_property_map(lengths))
                               .distance_map(make_iterator_property_map(distance.begin(), index))
                               .predecessor_map(make_iterator_property_map(before.begin(), index)));
@@ -207,7 +215,7 @@ std::optional<Route> TopologicalGraph::shortestRoute(base::SubMapId from, base::
   route.length = distance[start];
   route.submaps.push_back(from);
   for (Vertex at = start; at != goal; at = before[at]) {
-    route.edges.push_back(graph[edge(at, before[at], graph).first].id);
+    route.edges.push_back(graph[edge(at, before[at], passable).first].id);
     route.submaps.push_back(graph[before[at]].id);
   }
   return route;
@@ -229,6 +237,8 @@ std::string_view toString(EdgeKind kind) {
       return "loop";
     case EdgeKind::kLift:
       return "lift";
+    case EdgeKind::kOverlap:
+      return "overlap";
   }
   return "";
 }

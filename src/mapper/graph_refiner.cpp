@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <numeric>
 #include <set>
@@ -57,6 +58,29 @@ Eigen::Matrix3d planarPart(const map::Matrix6& six) {
       three(row, column) = six(kPlanar[static_cast<std::size_t>(row)], kPlanar[static_cast<std::size_t>(column)]);
   }
   return three;
+}
+
+/// Rather than travelled.
+bool isFound(const map::Edge& edge) {
+  return edge.kind == map::EdgeKind::kLoop || edge.kind == map::EdgeKind::kOverlap;
+}
+
+/// Has either of the two seen that the straight line between their origins is free?
+bool isWay(const localization::MatchedLayers& from, const localization::MatchedLayers& to,
+           const geometry::Pose2& T_from_to) {
+  const auto T_to_from = geometry::inverse(T_from_to);
+  const auto isFree = [](const map::OccupancyGrid& grid, const Eigen::Vector2d& place) {
+    return grid.state(grid.cellAt(place)) == map::CellState::kFree;
+  };
+  const double step = 0.5 * from.grid->resolution();
+  const int steps = static_cast<int>(std::hypot(T_from_to.x, T_from_to.y) / step);
+  for (int i = 1; i < steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    const Eigen::Vector2d place_in_from = share * Eigen::Vector2d(T_from_to.x, T_from_to.y);
+    const Eigen::Vector2d place_in_to = (1.0 - share) * Eigen::Vector2d(T_to_from.x, T_to_from.y);
+    if (!isFree(*from.grid, place_in_from) && !isFree(*to.grid, place_in_to)) return false;
+  }
+  return true;
 }
 
 bool isNear(const geometry::Pose3& a, const geometry::Pose3& b, double distance, double turn) {
@@ -152,7 +176,8 @@ void GraphRefiner::tie(const localization::Loop& loop, bool joins) {
   edge.id = newEdgeId();
   edge.from = loop.from;
   edge.to = loop.to;
-  edge.kind = map::EdgeKind::kLoop;
+  const bool isPassable = isWay(layersOf(loop.from), layersOf(loop.to), loop.match.T_from_to);
+  edge.kind = isPassable ? map::EdgeKind::kLoop : map::EdgeKind::kOverlap;
   edge.T_from_to = geometry::toPose3(loop.match.T_from_to);
   edge.information = lifted(loop.match.information);
   ties_.push_back({edge, joins ? TieState::kBetweenComponents : TieState::kBelieved});
@@ -198,8 +223,7 @@ void GraphRefiner::joinComponents() {
 }
 
 void GraphRefiner::settle() {
-  const auto isLoop = [](const Tie& tie) { return tie.edge.kind == map::EdgeKind::kLoop; };
-  if (findsLoops_ && std::ranges::any_of(ties_, isLoop)) refine(false);
+  if (findsLoops_ && std::ranges::any_of(ties_, [](const Tie& tie) { return isFound(tie.edge); })) refine(false);
 }
 
 void GraphRefiner::refine(bool isIncremental) {
@@ -220,8 +244,7 @@ localization::PoseGraph GraphRefiner::poseGraph(bool withDoubtful) const {
   for (const auto& [edge, state, isTold] : ties_) {
     const bool isUsed = state == TieState::kBelieved || (withDoubtful && state == TieState::kGivenUp);
     if (!isUsed) continue;
-    graph.constraints.push_back(
-        {edge.from.value, edge.to.value, edge.T_from_to, edge.information, edge.kind == map::EdgeKind::kLoop});
+    graph.constraints.push_back({edge.from.value, edge.to.value, edge.T_from_to, edge.information, isFound(edge)});
   }
   return graph;
 }

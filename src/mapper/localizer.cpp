@@ -103,6 +103,7 @@ bool Localizer::awaits(base::Time time) const {
 std::optional<Localizer::Located> Localizer::locate(const sensors::Reading& reading, const sensors::Mask* movers) {
   const auto located = isEstimated() ? std::optional(estimate(reading, movers)) : follow(reading.time);
   if (!located) return std::nullopt;
+  if (hasLocated_) velocity_ = velocityOver(T_travel_last_.inverse() * located->T_travel_body, reading.time);
   hasLocated_ = true;
   lastTime_ = reading.time;
   T_travel_last_ = located->T_travel_body;
@@ -130,13 +131,16 @@ Localizer::Located Localizer::estimate(const sensors::Reading& reading, const se
 }
 
 Localizer::Located Localizer::trackLaser(const sensors::Reading& reading, const sensors::Mask* movers) {
+  const auto step = stepOfWheels(reading.time);
+  // As fast as the wheels say; without, as fast as before.
+  const Eigen::Vector3d velocity = step ? velocityOver(*step, reading.time) : velocity_;
   std::vector<map::OccupancyGrid::Beam> beams;
-  const auto origin = map::appendLevelBeams({.reading = reading, .movers = movers}, heightBand_, beams);
+  const auto origin =
+      map::appendLevelBeams({.reading = reading, .velocity = velocity, .movers = movers}, heightBand_, beams);
   std::vector<Eigen::Vector2d> points_in_body;
   for (const auto& beam : beams) {
     if (beam.hit && (beam.end - *origin).norm() <= maxRange_) points_in_body.push_back(beam.end);
   }
-  const auto step = stepOfWheels(reading.time);
   const auto estimate = laser_.track(points_in_body, step ? std::optional(geometry::toPose2(*step)) : std::nullopt);
   lost_ += estimate.isLost ? 1 : 0;
   Located located{.T_travel_body = geometry::toPose3(estimate.T_travel_body)};
@@ -165,6 +169,14 @@ std::optional<geometry::Pose3> Localizer::stepOfWheels(base::Time time) const {
   return track_.at(lastTime_).inverse() * track_.at(time);
 }
 
+/// Mean, since the reading located before.
+Eigen::Vector3d Localizer::velocityOver(const geometry::Pose3& T_last_body, base::Time time) const {
+  const double seconds = base::seconds(time - lastTime_);
+  if (!(seconds > 0.0)) return Eigen::Vector3d::Zero();
+  const auto step = geometry::toPose2(T_last_body);
+  return Eigen::Vector3d(step.x, step.y, step.theta) / seconds;
+}
+
 map::Matrix6 Localizer::wheelNoise(const geometry::Pose3& T_last_body) const {
   const double way = T_last_body.translation().norm();
   const double turn = geometry::rotationAngle(T_last_body);
@@ -189,6 +201,7 @@ void Localizer::save(base::ByteWriter& out) const {
   out << hasLocated_;
   saveTime(out, lastTime_);
   savePose(out, T_travel_last_);
+  saveMatrix(out, velocity_);
   out << lost_;
 }
 
@@ -201,6 +214,7 @@ void Localizer::load(base::ByteReader& in) {
   in >> hasLocated_;
   lastTime_ = loadTime(in);
   T_travel_last_ = loadPose(in);
+  loadMatrix(in, velocity_);
   in >> lost_;
 }
 

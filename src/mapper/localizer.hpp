@@ -41,6 +41,8 @@ class Localizer {
   bool awaits(base::Time time) const;
   /// Readings in their order, each once. None where no pose is known near.
   std::optional<Located> locate(const sensors::Reading& reading, const sensors::Mask* movers);
+  /// Of the body at the reading located last, as PlacedReading has it.
+  const Eigen::Vector3d& velocity() const { return velocity_; }
   /// Of the readings located, those that were not recognised and got no more than what was to be expected.
   std::int64_t lost() const { return lost_; }
   /// No more questions will come of times much before.
@@ -60,6 +62,7 @@ class Localizer {
   Located trackLaser(const sensors::Reading& reading, const sensors::Mask* movers);
   Located trackRgbd(const sensors::Reading& reading, const sensors::Mask* movers);
   std::optional<geometry::Pose3> stepOfWheels(base::Time time) const;
+  Eigen::Vector3d velocityOver(const geometry::Pose3& T_last_body, base::Time time) const;
   map::Matrix6 wheelNoise(const geometry::Pose3& T_last_body) const;
 
   Origin origin_;
@@ -78,6 +81,7 @@ class Localizer {
   bool hasLocated_ = false;
   base::Time lastTime_{};
   geometry::Pose3 T_travel_last_ = geometry::Pose3::Identity();
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   std::int64_t lost_ = 0;
 };
 

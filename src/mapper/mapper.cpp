@@ -209,7 +209,9 @@ void Mapper::Impl::place(const sensors::Reading& reading) {
 
 /// What the robot sees where it is now.
 void Mapper::Impl::integrate(const sensors::Reading& reading) {
-  const map::PlacedReading placed{reading, running_->T_submap_body(T_travel_lastBody_)};
+  const map::PlacedReading placed{.reading = reading,
+                                  .T_submap_body = running_->T_submap_body(T_travel_lastBody_),
+                                  .velocity = localizer_.velocity()};
   if (!running_->integrate(placed, T_travel_lastBody_, times)) return skip(nobodyTakes(reading));
   use(reading);
   session_.end = reading.time;
@@ -229,7 +231,8 @@ void Mapper::Impl::travelTo(const Localizer::Located& located, const sensors::Re
     passOn(map::EdgeKind::kTravelled, T_travel_body, reading.time);
   } else if (const auto way = floors_.update(heightAt(T_travel_body), session_.distance)) {
     passOn(*way, T_travel_body, reading.time);
-  } else if (running_->isLeftBy({reading, running_->T_submap_body(T_travel_body)}, config_.submap)) {
+  } else if (running_->isLeftBy({.reading = reading, .T_submap_body = running_->T_submap_body(T_travel_body)},
+                                config_.submap)) {
     passOn(map::EdgeKind::kTravelled, T_travel_body, reading.time);
   }
   // Doors and stairs crossed, once they are detected, are one more reason to pass on, with the entity as its cause.

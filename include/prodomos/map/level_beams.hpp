@@ -15,7 +15,7 @@ namespace prodomos::map {
 /// A scan's beams are its own; those that say nothing are left out, those without a return have the length `noReturn`,
 /// or the scanner's range. Of a depth image or a point cloud there is one beam per direction in which something was
 /// seen: to the nearest point within the height band over the floor (z = 0 of the sub-map), else without a hit to the
-/// farthest point below the band's top.
+/// farthest point below the band's top. A scan that was swept while the body moved is put right.
 std::optional<Eigen::Vector2d> appendLevelBeams(const PlacedReading& placed, const HeightBand& band,
                                                 std::vector<OccupancyGrid::Beam>& beams, double noReturn = 0.0);
 

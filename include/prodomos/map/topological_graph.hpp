@@ -37,7 +37,9 @@ struct Node {
   int readings = 0;       ///< integrated
 };
 
-enum class EdgeKind { kTravelled, kDoor, kStairs, kLoop, kLift };
+/// How one gets from one sub-map to the other. An overlap is no way: both show the same place, which ties their poses,
+/// but between their origins nobody has seen free floor.
+enum class EdgeKind { kTravelled, kDoor, kStairs, kLoop, kLift, kOverlap };
 
 /// Reachability between two sub-maps.
 struct Edge {
@@ -99,7 +101,7 @@ class TopologicalGraph {
   std::vector<TopologicalPlace> places() const;
   /// How many parts the graph falls into, all edges counting.
   int componentCount() const;
-  /// The shortest by distance between origins (Dijkstra); none where the two are not connected.
+  /// The shortest by distance between origins (Dijkstra), overlaps apart; none where the two are not connected.
   std::optional<Route> shortestRoute(base::SubMapId from, base::SubMapId to) const;
 
  private:
@@ -109,7 +111,7 @@ class TopologicalGraph {
 
 /// "observed", "predicted".
 std::string_view toString(SubMapKind kind);
-/// "travelled", "door", "stairs", "loop", "lift".
+/// "travelled", "door", "stairs", "loop", "lift", "overlap".
 std::string_view toString(EdgeKind kind);
 
 }  // namespace prodomos::map

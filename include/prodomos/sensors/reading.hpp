@@ -26,7 +26,7 @@ struct LaserScan {
   double firstAngle = 0.0;    ///< radians, counter-clockwise from the sensor's x-axis
   double angleStep = 0.0;     ///< radians, may be negative
   double maxRange = 0.0;      ///< metres
-  double sweepTime = 0.0;     ///< seconds from the first beam to the last, 0 = at once or not known
+  double sweepTime = 0.0;     ///< seconds from the first beam, at the reading's time, to the last; 0 = not known
   std::vector<float> ranges;  ///< metres; kNoReturn: nothing within maxRange; kInvalid: the beam says nothing
 
   static constexpr float kNoReturn = std::numeric_limits<float>::infinity();

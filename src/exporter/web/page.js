@@ -135,6 +135,7 @@ function graphLegend() {
     element('span', {}, dot('observed'), 'observed'),
     data.nodes.some(node => node.kind === 'predicted') && element('span', {}, dot('predicted', true), 'predicted'),
     has('loop') && element('span', {}, dash('loop', '2 4'), 'loop closure'),
+    has('overlap') && element('span', {}, dash('overlap', '1 4'), 'overlap, no way'),
     has('door') && element('span', {}, dash('door'), 'through a door'),
     (has('stairs') || has('lift')) && element('span', {}, dash('stairs'), has('lift') ? 'stairs, lift' : 'stairs'),
   ]);

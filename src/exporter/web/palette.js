@@ -10,7 +10,7 @@ const colors = {};
 function readColors() {
   const style = getComputedStyle(document.documentElement);
   const names = ['ground', 'free', 'free-faint', 'wall', 'wall-faint', 'ink', 'ink-soft', 'accent', 'observed', 'predicted',
-    'door', 'stairs', 'loop', 'human', 'thing', 'travelled', 'refined', 'halo', 'place-tint'];
+    'door', 'stairs', 'loop', 'overlap', 'human', 'thing', 'travelled', 'refined', 'halo', 'place-tint'];
   for (const name of names) colors[name] = style.getPropertyValue('--' + name).trim();
 }
 
@@ -19,7 +19,7 @@ const placeTint = place => `oklch(${colors['place-tint']} ${(255 + (place % kPla
 
 const kEntityColors = { door: 'door', staircase: 'stairs', human: 'human' };
 const entityColor = entity => colors[kEntityColors[entity.class] || 'thing'];
-const kEdgeColors = { travelled: 'observed', loop: 'loop', door: 'door', stairs: 'stairs', lift: 'stairs' };
+const kEdgeColors = { travelled: 'observed', loop: 'loop', overlap: 'overlap', door: 'door', stairs: 'stairs', lift: 'stairs' };
 const edgeColor = edge => colors[kEdgeColors[edge.kind] || 'observed'];
 
 const scratch = document.createElement('canvas').getContext('2d', { willReadFrequently: true });

@@ -144,8 +144,8 @@ function paintEdges(ctx, px) {
     const shown = onFloor(from) || onFloor(to);
     if (!shown) continue;
     const predicted = from.kind === 'predicted' || to.kind === 'predicted';
-    const dash = predicted ? [5, 5] : edge.kind === 'loop' ? [2, 4] : [];
-    const width = Math.max(1.25, nodeRadius * 0.28);
+    const dash = predicted ? [5, 5] : edge.kind === 'loop' ? [2, 4] : edge.kind === 'overlap' ? [1, 4] : [];
+    const width = edge.kind === 'overlap' ? 1 : Math.max(1.25, nodeRadius * 0.28);
     const points = [from.pose, to.pose];
     if (edge.id === state.selection) {
       ctx.globalAlpha = 0.35;
