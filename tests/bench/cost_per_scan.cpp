@@ -13,13 +13,14 @@
 #include "prodomos/io/open_source.hpp"
 #include "prodomos/mapper/mapper.hpp"
 
+#include "support/temporary_folder.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -107,7 +108,6 @@ void run(const std::string& log, int passes) {
     ++line;
   }
   mapper.finish();
-  std::filesystem::remove(path);
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ Built read(const std::string& path) {
   for (const auto id : view.graph().nodes()) built.nodes.push_back(view.graph().getNode(id));
   for (const auto id : view.graph().edges()) {
     const auto& edge = view.graph().getEdge(id);
-    const bool isLoop = edge.kind == map::EdgeKind::kLoop;
+    const bool isLoop = edge.kind == map::EdgeKind::kLoop || edge.kind == map::EdgeKind::kOverlap;
     (isLoop ? built.loops : built.travelled)
         .push_back({edge.from.value, edge.to.value, edge.T_from_to, edge.information, isLoop});
   }
