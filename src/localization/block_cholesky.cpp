@@ -127,7 +127,7 @@ void Elimination::findSupernodes(std::vector<std::vector<int>> rowsOfColumn) {
       const auto& before = supernodes_.back();
       const bool isChild = !before.rows.empty() && before.rows.front() < node.first + node.columns;
       if (!isChild) break;
-      const auto columns = static_cast<std::size_t>(before.columns + node.columns);
+      const auto columns = static_cast<std::size_t>(before.columns) + static_cast<std::size_t>(node.columns);
       const auto nonzeros = before.nonzeros + node.nonzeros;
       if (!isWorthJoining(columns, blocksIn(columns, node.rows.size()), nonzeros)) break;
       node.first = before.first;
@@ -223,9 +223,9 @@ bool BlockCholesky<D>::factorize(const BlockMatrix<D>& matrix, double damping) {
 
 template <int D>
 void BlockCholesky<D>::assemble(const Supernode& node, const BlockMatrix<D>& matrix, double damping) {
-  Panel panel(factor_.data() + node.panel * D * D, node.size() * D, node.columns * D);
+  Panel panel(factor_.data() + node.panel * D * D, wide(node.size()), wide(node.columns));
   for (const auto& entry : node.entries) {
-    auto target = panel.template block<D, D>(entry.row * D, entry.column * D);
+    auto target = panel.template block<D, D>(wide(entry.row), wide(entry.column));
     const auto block = static_cast<std::size_t>(entry.block);
     if (entry.isDiagonal) {
       target += matrix.diagonal[block];
@@ -244,7 +244,7 @@ void BlockCholesky<D>::addUpdate(const Supernode& child, const double* update, c
   const auto count = child.inParent.size();
   const auto stride = count * D;
   double* const panel = factor_.data() + parent.panel * D * D;
-  const auto panelStride = static_cast<std::size_t>(parent.size() * D);
+  const auto panelStride = static_cast<std::size_t>(wide(parent.size()));
   const auto updateStride = parent.rows.size() * D;
   for (std::size_t column = 0; column < count; ++column) {
     const int at = child.inParent[column];
@@ -252,11 +252,11 @@ void BlockCholesky<D>::addUpdate(const Supernode& child, const double* update, c
     // Rows count from the piece's first column, in the update from the first row below.
     const int firstRow = isInside ? 0 : parent.columns;
     const auto targetStride = isInside ? panelStride : updateStride;
-    double* target = (isInside ? panel : parentUpdate) + static_cast<std::size_t>((at - firstRow) * D) * targetStride;
+    double* target = (isInside ? panel : parentUpdate) + static_cast<std::size_t>(wide(at - firstRow)) * targetStride;
     const double* source = update + column * D * stride;
     for (int k = 0; k < D; ++k, target += targetStride, source += stride) {
       for (std::size_t row = column; row < count; ++row) {
-        double* const to = target + (child.inParent[row] - firstRow) * D;
+        double* const to = target + wide(child.inParent[row] - firstRow);
         const double* const from = source + row * D;
         for (int i = 0; i < D; ++i) to[i] += from[i];
       }
@@ -266,7 +266,7 @@ void BlockCholesky<D>::addUpdate(const Supernode& child, const double* update, c
 
 template <int D>
 bool BlockCholesky<D>::eliminate(const Supernode& node, double* update) {
-  const Eigen::Index columns = node.columns * D;
+  const Eigen::Index columns = wide(node.columns);
   const auto rows = static_cast<Eigen::Index>(node.rows.size()) * D;
   Panel panel(factor_.data() + node.panel * D * D, columns + rows, columns);
   Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> head = panel.topRows(columns);
@@ -295,33 +295,34 @@ template <int D>
 void BlockCholesky<D>::solve(Eigen::VectorXd& x) const {
   Eigen::VectorXd ordered(x.size());
   for (std::size_t block = 0; block < elimination_->position().size(); ++block) {
-    ordered.segment<D>(elimination_->position()[block] * D) = x.segment<D>(static_cast<Eigen::Index>(block) * D);
+    ordered.segment<D>(wide(elimination_->position()[block])) = x.segment<D>(static_cast<Eigen::Index>(block) * D);
   }
   Eigen::VectorXd below;
   const auto panelOf = [&](const Supernode& node) {
-    return ConstPanel(factor_.data() + node.panel * D * D, node.size() * D, node.columns * D);
+    return ConstPanel(factor_.data() + node.panel * D * D, wide(node.size()), wide(node.columns));
   };
   for (const auto& node : elimination_->supernodes()) {
     const auto panel = panelOf(node);
-    auto head = ordered.segment(node.first * D, node.columns * D);
-    panel.topRows(node.columns * D).template triangularView<Eigen::Lower>().solveInPlace(head);
+    auto head = ordered.segment(wide(node.first), wide(node.columns));
+    panel.topRows(wide(node.columns)).template triangularView<Eigen::Lower>().solveInPlace(head);
     below.noalias() = panel.bottomRows(panel.rows() - panel.cols()) * head;
     for (std::size_t i = 0; i < node.rows.size(); ++i) {
-      ordered.segment<D>(node.rows[i] * D) -= below.segment<D>(static_cast<Eigen::Index>(i) * D);
+      ordered.segment<D>(wide(node.rows[i])) -= below.segment<D>(static_cast<Eigen::Index>(i) * D);
     }
   }
-  for (auto at = elimination_->supernodes().rbegin(); at != elimination_->supernodes().rend(); ++at) {
-    const auto panel = panelOf(*at);
+  for (std::size_t at = elimination_->supernodes().size(); at-- > 0;) {
+    const auto& node = elimination_->supernodes()[at];
+    const auto panel = panelOf(node);
     below.resize(panel.rows() - panel.cols());
-    for (std::size_t i = 0; i < at->rows.size(); ++i) {
-      below.segment<D>(static_cast<Eigen::Index>(i) * D) = ordered.segment<D>(at->rows[i] * D);
+    for (std::size_t i = 0; i < node.rows.size(); ++i) {
+      below.segment<D>(static_cast<Eigen::Index>(i) * D) = ordered.segment<D>(wide(node.rows[i]));
     }
-    auto head = ordered.segment(at->first * D, at->columns * D);
+    auto head = ordered.segment(wide(node.first), wide(node.columns));
     head.noalias() -= panel.bottomRows(below.size()).transpose() * below;
-    panel.topRows(at->columns * D).template triangularView<Eigen::Lower>().transpose().solveInPlace(head);
+    panel.topRows(wide(node.columns)).template triangularView<Eigen::Lower>().transpose().solveInPlace(head);
   }
   for (std::size_t block = 0; block < elimination_->position().size(); ++block) {
-    x.segment<D>(static_cast<Eigen::Index>(block) * D) = ordered.segment<D>(elimination_->position()[block] * D);
+    x.segment<D>(static_cast<Eigen::Index>(block) * D) = ordered.segment<D>(wide(elimination_->position()[block]));
   }
 }
 
@@ -331,7 +332,7 @@ void BlockCholesky<D>::gather(const Eigen::MatrixXd& parent, const std::vector<i
   for (std::size_t column = 0; column < at.size(); ++column) {
     for (std::size_t row = 0; row < at.size(); ++row) {
       target.template block<D, D>(static_cast<Eigen::Index>(row) * D, static_cast<Eigen::Index>(column) * D) =
-          parent.template block<D, D>(at[row] * D, at[column] * D);
+          parent.template block<D, D>(wide(at[row]), wide(at[column]));
     }
   }
 }
@@ -345,8 +346,8 @@ BlockMatrix<D> BlockCholesky<D>::inverseBlocks() const {
   std::vector<Eigen::MatrixXd> parts(elimination_->supernodes().size());
   for (std::size_t i = elimination_->supernodes().size(); i-- > 0;) {
     const auto& node = elimination_->supernodes()[i];
-    const Eigen::Index columns = node.columns * D;
-    const Eigen::Index rows = node.size() * D - columns;
+    const Eigen::Index columns = wide(node.columns);
+    const Eigen::Index rows = wide(node.size()) - columns;
     const ConstPanel panel(factor_.data() + node.panel * D * D, columns + rows, columns);
     auto& part = parts[i];
     part = Eigen::MatrixXd::Zero(columns + rows, columns + rows);
@@ -365,7 +366,7 @@ BlockMatrix<D> BlockCholesky<D>::inverseBlocks() const {
       if (parent.children.front() == static_cast<int>(i)) parts[static_cast<std::size_t>(node.parent)].resize(0, 0);
     }
     for (const auto& entry : node.entries) {
-      const auto block = part.template block<D, D>(entry.row * D, entry.column * D);
+      const auto block = part.template block<D, D>(wide(entry.row), wide(entry.column));
       if (entry.isDiagonal) {
         inverse.diagonal[static_cast<std::size_t>(entry.block)] = block;
       } else if (entry.isTransposed) {

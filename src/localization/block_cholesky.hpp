@@ -99,6 +99,8 @@ class BlockCholesky {
  private:
   using Supernode = Elimination::Supernode;
 
+  static Eigen::Index wide(int blocks) { return static_cast<Eigen::Index>(blocks) * D; }
+
   void assemble(const Supernode& node, const BlockMatrix<D>& matrix, double damping);
   void addUpdate(const Supernode& child, const double* update, const Supernode& parent, double* parentUpdate);
   bool eliminate(const Supernode& node, double* update);

@@ -219,9 +219,9 @@ class Reader {
 
   template <typename Pose>
   void requireOneKind() {
-    constexpr bool isPlanar = std::is_same_v<Pose, geometry::Pose2>;
-    const bool hasOther = isPlanar ? !spatial_.graph.vertices.empty() || !spatial_.edgeLines.empty()
-                                   : !planar_.graph.vertices.empty() || !planar_.edgeLines.empty();
+    constexpr bool kIsPlanar = std::is_same_v<Pose, geometry::Pose2>;
+    const bool hasOther = kIsPlanar ? !spatial_.graph.vertices.empty() || !spatial_.edgeLines.empty()
+                                    : !planar_.graph.vertices.empty() || !planar_.edgeLines.empty();
     if (hasOther) fail("either SE2 or SE3:QUAT throughout, as before", inTicks(fields_.front()));
   }
 

@@ -56,20 +56,21 @@ class Search {
 
   void expand(Bits candidates) {
     const auto order = coloured(candidates);
-    for (auto next = order.rbegin(); next != order.rend(); ++next) {
-      if (chosen_.size() + next->colours <= best_.size()) return;
+    for (std::size_t at = order.size(); at-- > 0;) {
+      const auto& next = order[at];
+      if (chosen_.size() + next.colours <= best_.size()) return;
       if (branchesLeft_ == 0) return;
       --branchesLeft_;
-      chosen_.push_back(next->member);
+      chosen_.push_back(next.member);
       Bits rest = candidates;
-      for (std::size_t i = 0; i < rest.size(); ++i) rest[i] &= agreement_.row(next->member)[i];
+      for (std::size_t i = 0; i < rest.size(); ++i) rest[i] &= agreement_.row(next.member)[i];
       if (std::ranges::any_of(rest, [](auto word) { return word != 0; })) {
         expand(std::move(rest));
       } else if (chosen_.size() > best_.size()) {
         best_ = chosen_;
       }
       chosen_.pop_back();
-      candidates[next->member / 64] &= ~(1ULL << (next->member % 64));
+      candidates[next.member / 64] &= ~(1ULL << (next.member % 64));
     }
   }
 

@@ -77,7 +77,7 @@ PoseProblem<Pose>::PoseProblem(const Graph<Pose>& graph) : index_(graph) {
                              .information = constraint.information});
   }
   findPlaces();
-  gradient_.resize(unknowns_ * kDimension);
+  gradient_.resize(static_cast<Eigen::Index>(unknowns_) * kDimension);
 }
 
 template <typename Pose>
