@@ -16,7 +16,8 @@ constexpr double kSmallReach = 0.5;  // metres
 constexpr double kSameReach = 1.0;   // metres, radians; poses nearer than this are one place
 // Points of one wall err together: by what the sub-map itself is bent. So many of them count as one.
 constexpr double kCorrelated = 20.0;
-constexpr double kConflictPerOverlap = 0.5;
+// A heap of points, as thick as it is wide, is a bush or a crowd: beams pass it, and pass it not.
+constexpr double kMostThickness = 0.5;  // of the extent
 
 std::vector<Eigen::Vector2d> positions(const map::SurfaceLayer& surface) {
   std::vector<Eigen::Vector2d> positions;
@@ -37,6 +38,12 @@ struct Comparison {
   int conflicting = 0;
 };
 
+/// Is this point of a surface part of a wall?
+bool isOfWall(const map::SurfaceLayer& surface, const Eigen::Vector2d& point) {
+  const auto patch = surface.patchAt(point);
+  return patch && patch->thickness <= kMostThickness * patch->extent;
+}
+
 /// What one sub-map's surface is to the other: on its surface, on its free floor, or where it has not seen.
 Comparison compare(const map::SurfaceLayer& points, const MatchedLayers& other, const geometry::Pose2& T_other_points) {
   Comparison comparison;
@@ -46,7 +53,8 @@ Comparison compare(const map::SurfaceLayer& points, const MatchedLayers& other, 
     const Eigen::Vector2d place = rotation * point.position_in_submap() + translation;
     if (other.surface->isNear(place)) {
       ++comparison.agreeing;
-    } else if (other.grid->state(other.grid->cellAt(place)) == map::CellState::kFree) {
+    } else if (other.grid->state(other.grid->cellAt(place)) == map::CellState::kFree &&
+               isOfWall(points, point.position_in_submap())) {
       ++comparison.conflicting;
     }
   }
@@ -76,9 +84,7 @@ std::optional<SubMapMatch> matchSubMaps(const MatchedLayers& from, const Matched
   SubMapMatch result{.T_from_to = match.T_map_body, .information = match.information / kCorrelated};
   result.overlap = agreeing / std::max(count, 1.0);
   result.conflict = conflicting / std::max(agreeing + conflicting, 1.0);
-  // Where much agrees, something may have moved, or be a bush that some beams pass.
-  const double mostConflict = config.mostConflict + kConflictPerOverlap * (result.overlap - config.leastOverlap);
-  const bool isSame = result.overlap >= config.leastOverlap && result.conflict <= mostConflict &&
+  const bool isSame = result.overlap >= config.leastOverlap && result.conflict <= config.mostConflict &&
                       agreeing * to.surface->resolution() >= config.leastWall;
   return isSame ? std::optional(result) : std::nullopt;
 }
