@@ -84,8 +84,12 @@ std::string Localizer::take(const sensors::Reading& reading) {
 Localizer::Followed Localizer::kindOf(const sensors::Reading& reading) {
   if (std::holds_alternative<sensors::LaserScan>(reading.data)) return Followed::kLaser;
   if (std::holds_alternative<sensors::PointCloud>(reading.data)) return Followed::kCloud;
-  if (std::holds_alternative<sensors::RgbdFrame>(reading.data)) return Followed::kRgbd;
-  return Followed::kNothing;
+  const auto* frame = std::get_if<sensors::RgbdFrame>(&reading.data);
+  return frame != nullptr && !frame->depth.empty() ? Followed::kRgbd : Followed::kNothing;
+}
+
+bool Localizer::isFollowed(const sensors::Reading& reading) const {
+  return !isEstimated() || (reading.sensor == sensor_ && kindOf(reading) == followed_);
 }
 
 /// Lasers tell poses best; the choice stays once the first reading has been located.
@@ -101,8 +105,8 @@ bool Localizer::awaits(base::Time time) const {
 }
 
 std::optional<Localizer::Located> Localizer::locate(const sensors::Reading& reading, const sensors::Mask* movers) {
-  const auto located = isEstimated() ? std::optional(estimate(reading, movers)) : follow(reading.time);
-  if (!located) return std::nullopt;
+  auto located = isEstimated() ? std::optional(estimate(reading, movers)) : follow(reading.time);
+  if (!located || !isFollowed(reading)) return located;
   if (hasLocated_) velocity_ = velocityOver(T_travel_last_.inverse() * located->T_travel_body, reading.time);
   hasLocated_ = true;
   lastTime_ = reading.time;
@@ -123,11 +127,10 @@ std::optional<Localizer::Located> Localizer::follow(base::Time time) {
 }
 
 Localizer::Located Localizer::estimate(const sensors::Reading& reading, const sensors::Mask* movers) {
-  if (reading.sensor == sensor_ && kindOf(reading) == followed_)
+  if (isFollowed(reading))
     return followed_ == Followed::kRgbd ? trackRgbd(reading, movers) : trackLaser(reading, movers);
   // Other sensors' readings come between: as the wheels tell, or where the robot was just before.
-  const auto step = stepOfWheels(reading.time).value_or(geometry::Pose3::Identity());
-  return {.T_travel_body = T_travel_last_ * step, .covariance = wheelNoise(step)};
+  return {.T_travel_body = T_travel_last_ * stepOfWheels(reading.time).value_or(geometry::Pose3::Identity())};
 }
 
 Localizer::Located Localizer::trackLaser(const sensors::Reading& reading, const sensors::Mask* movers) {
@@ -163,13 +166,13 @@ Localizer::Located Localizer::trackRgbd(const sensors::Reading& reading, const s
   return located;
 }
 
-/// Since the reading located before; none without odometry.
+/// Since the last reading of what is followed; none without odometry.
 std::optional<geometry::Pose3> Localizer::stepOfWheels(base::Time time) const {
   if (!hasLocated_ || track_.empty()) return std::nullopt;
   return track_.at(lastTime_).inverse() * track_.at(time);
 }
 
-/// Mean, since the reading located before.
+/// Mean, since the last reading of what is followed.
 Eigen::Vector3d Localizer::velocityOver(const geometry::Pose3& T_last_body, base::Time time) const {
   const double seconds = base::seconds(time - lastTime_);
   if (!(seconds > 0.0)) return Eigen::Vector3d::Zero();

@@ -32,7 +32,8 @@ class Localizer {
 
   struct Located {
     geometry::Pose3 T_travel_body = geometry::Pose3::Identity();
-    /// Of the step since the reading located before, in the axes of the body now: metres, radians.
+    /// Of the step since the reading located before, in the axes of the body now: metres, radians. Zero where another
+    /// sensor is followed, which tells the whole step.
     map::Matrix6 covariance = map::Matrix6::Zero();
     /// The floor has just shown that `travel` is not upright, or at the wrong height: how it lies in a world that is.
     std::optional<geometry::Pose3> T_upright_travel;
@@ -56,6 +57,7 @@ class Localizer {
   enum class Followed { kNothing, kRgbd, kCloud, kLaser };
   static Origin originOf(const InputConfig& config, const sensors::SourceInfo& log);
   static Followed kindOf(const sensors::Reading& reading);
+  bool isFollowed(const sensors::Reading& reading) const;
 
   std::optional<Located> follow(base::Time time);
   Located estimate(const sensors::Reading& reading, const sensors::Mask* movers);
@@ -78,6 +80,7 @@ class Localizer {
   localization::LaserOdometry laser_;
   localization::RgbdOdometry rgbd_;
   geometry::Pose3 T_travel_world_ = geometry::Pose3::Identity();  // world: of the RGB-D odometry
+  // The step goes on from the last reading of what is followed.
   bool hasLocated_ = false;
   base::Time lastTime_{};
   geometry::Pose3 T_travel_last_ = geometry::Pose3::Identity();
