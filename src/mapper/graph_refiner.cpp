@@ -30,8 +30,9 @@ constexpr double kLeastMove = 1e-3;  // metres, radians
 constexpr double kFloorSigma = 0.05;    // metres
 constexpr double kUprightSigma = 0.02;  // radians
 
-// Two components are joined where so many loops agree how.
-constexpr int kWitnesses = 2;
+// Two components are joined where loops agree how, between so many sub-maps of either: all loops of a single one may be
+// wrong, and agree, where it looks like another place.
+constexpr std::size_t kWitnesses = 2;
 constexpr double kAgreement = 0.5;      // metres
 constexpr double kAgreementTurn = 0.1;  // radians
 
@@ -204,7 +205,14 @@ void GraphRefiner::joinComponents() {
              isNear(moveOf(first) * T_map_submap(first.edge.to), moveOf(other) * T_map_submap(first.edge.to),
                     kAgreement, kAgreementTurn);
     };
-    if (std::ranges::count_if(ties_, agrees) < kWitnesses) continue;
+    std::set<base::SubMapId> seenFrom;
+    std::set<base::SubMapId> seenTo;
+    for (const auto& tie : ties_) {
+      if (!agrees(tie)) continue;
+      seenFrom.insert(tie.edge.from);
+      seenTo.insert(tie.edge.to);
+    }
+    if (std::min(seenFrom.size(), seenTo.size()) < kWitnesses) continue;
     const geometry::Pose3 T_after_before = moveOf(first);
     for (auto& tie : ties_) {
       if (agrees(tie)) tie.state = TieState::kBelieved;
