@@ -26,6 +26,42 @@ inline std::vector<sensors::Reading> shortDrive() {
                       coarseRobot());
 }
 
+/// Wheels that tell a tenth too much and turn 2° a metre; a laser that errs by a centimetre.
+inline testing::LaserRobot slippingRobot() {
+  testing::LaserRobot robot;
+  robot.beams = 121;
+  robot.fieldOfView = 4.0;
+  robot.wheelScale = 1.1;
+  robot.wheelTurn = 0.035;
+  return robot;
+}
+
+/// Through all four rooms and back, by a robot whose wheels slip.
+inline const std::vector<sensors::Reading>& slippingTour() {
+  static const auto log = driveThrough(testing::fourRooms(), testing::tourOfFourRooms(), slippingRobot());
+  return log;
+}
+
+/// Where the robot of a drive truly is at each of its scans, from where it began.
+inline std::vector<geometry::Pose2> truthOf(const std::vector<Eigen::Vector2d>& path) {
+  testing::LaserRobot robot;
+  robot.beams = 2;
+  robot.odometryNoise = 0.0;
+  std::vector<geometry::Pose2> truth;
+  for (const auto& reading : driveThrough(testing::LaserWorld({}, 1.0), path, robot)) {
+    if (const auto* wheels = std::get_if<sensors::Odometry>(&reading.data))
+      truth.push_back(geometry::toPose2(wheels->T_odom_body));
+  }
+  return truth;
+}
+
+/// Poses as the wheels tell them.
+inline MapperConfig byWheels() {
+  MapperConfig config;
+  config.input.poses = "odometry";
+  return config;
+}
+
 inline sensors::SourceInfo liveInfo(bool hasRecordedPoses = false) {
   sensors::SourceInfo info;
   info.path = "memory.log";

@@ -8,6 +8,7 @@
 #include "mapper/drive.hpp"
 #include "support/temporary_folder.hpp"
 
+#include <Eigen/LU>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,9 +45,9 @@ sensors::Reading scan(double seconds, float range = 3.0F) {
   return {at(seconds), "laser", scan, ""};
 }
 
-/// A mapper on a map in memory.
+/// A mapper on a map in memory. It follows the wheels, so that poses are exact.
 struct Drive {
-  explicit Drive(const MapperConfig& config = {}, bool hasRecordedPoses = false)
+  explicit Drive(const MapperConfig& config = byWheels(), bool hasRecordedPoses = false)
       : mapper(store, config, liveInfo(hasRecordedPoses)) {}
 
   Drive& feed(const std::vector<sensors::Reading>& readings) {
@@ -66,8 +67,9 @@ struct Drive {
 };
 
 /// Not by overlap.
-MapperConfig byDistance(double metres) {
+MapperConfig byDistance(double metres, const std::string& poses = "odometry") {
   MapperConfig config;
+  config.input.poses = poses;
   config.submap.maxDistance = metres;
   config.submap.leastOverlap = 0.0;
   return config;
@@ -90,24 +92,19 @@ std::vector<sensors::Reading> movedBy(const Pose3& T_new_odom, std::vector<senso
   return log;
 }
 
-TEST(Mapper, DrawsWallsWhereTheWorldHasThem) {
-  Drive run;
-  const auto view = run.feed(shortDrive()).finish();
-  const auto world = testing::fourRooms();
-  const auto isWallNear = [&](const Eigen::Vector3d& point, double margin) {
-    for (const double dx : {-margin, 0.0, margin}) {
-      for (const double dy : {-margin, 0.0, margin}) {
-        if (world.isWall(point.x() + dx, point.y() + dy)) return true;
-      }
-    }
-    return false;
-  };
-  const Pose3 T_world_map = geometry::toPose3({1.0, 1.0, 0.0});  // the drive begins there, looking along x
-  int occupied = 0;
-  int free = 0;
+/// Of the cells that a map calls occupied or free, those that are not.
+struct WrongCells {
+  int occupied = 0;  ///< … that are
+  int farFromWalls = 0;
+  int free = 0;  ///< … that are
+  int deepInWalls = 0;
+};
+
+WrongCells compare(const map::MapView& view, const testing::LaserWorld& world, const Pose3& T_world_map,
+                   double margin) {
+  WrongCells cells;
   for (const auto id : view.graph().nodes()) {
     const auto grid = view.findLayer<map::OccupancyGrid>(id);
-    ASSERT_NE(grid, nullptr);
     const Pose3 T_world_submap = T_world_map * view.graph().getNode(id).T_map_submap;
     const auto box = grid->knownBox();
     for (int y = box.first.y; y <= box.last.y; ++y) {
@@ -115,22 +112,101 @@ TEST(Mapper, DrawsWallsWhereTheWorldHasThem) {
         const double resolution = grid->resolution();
         const Eigen::Vector3d centre(geometry::cellCentre(x, resolution), geometry::cellCentre(y, resolution), 0.0);
         const Eigen::Vector3d point = T_world_submap * centre;
-        const auto state = grid->state({x, y});
-        if (state == map::CellState::kOccupied) {
-          EXPECT_TRUE(isWallNear(point, 0.06)) << point.transpose();
-          ++occupied;
-        } else if (state == map::CellState::kFree) {
-          const bool isDeepInWall =
-              world.isWall(point.x() - 0.1, point.y()) && world.isWall(point.x() + 0.1, point.y()) &&
-              world.isWall(point.x(), point.y() - 0.1) && world.isWall(point.x(), point.y() + 0.1);
-          EXPECT_FALSE(isDeepInWall) << point.transpose();
-          ++free;
+        const auto isWallAt = [&](double dx, double dy) { return world.isWall(point.x() + dx, point.y() + dy); };
+        bool isNearWall = false;
+        bool isWallAround = true;
+        for (const double dx : {-margin, 0.0, margin}) {
+          for (const double dy : {-margin, 0.0, margin}) {
+            isNearWall |= isWallAt(dx, dy);
+            isWallAround &= isWallAt(dx, dy);
+          }
         }
+        const auto state = grid->state({x, y});
+        cells.occupied += state == map::CellState::kOccupied && isNearWall ? 1 : 0;
+        cells.farFromWalls += state == map::CellState::kOccupied && !isNearWall ? 1 : 0;
+        cells.free += state == map::CellState::kFree && !isWallAround ? 1 : 0;
+        cells.deepInWalls += state == map::CellState::kFree && isWallAround ? 1 : 0;
       }
     }
   }
-  EXPECT_GT(occupied, 500);
-  EXPECT_GT(free, 5000);
+  return cells;
+}
+
+TEST(Mapper, DrawsWallsWhereTheWorldHasThem) {
+  Drive run;
+  const auto view = run.feed(shortDrive()).finish();
+  const Pose3 T_world_map = geometry::toPose3({1.0, 1.0, 0.0});  // the drive begins there, looking along x
+  const auto cells = compare(view, testing::fourRooms(), T_world_map, 0.06);
+  EXPECT_GT(cells.occupied, 500);
+  EXPECT_GT(cells.free, 5000);
+  EXPECT_EQ(cells.farFromWalls, 0);
+  EXPECT_EQ(cells.deepInWalls, 0);
+}
+
+TEST(Mapper, DrawsWallsWhereTheWorldHasThemThoughWheelsSlip) {
+  const Pose3 T_world_map = geometry::toPose3({1.0, 1.0, 0.0});
+  const auto wrongOf = [&](const MapperConfig& config) {
+    Drive run(config);
+    const auto cells = compare(run.feed(slippingTour()).finish(), testing::fourRooms(), T_world_map, 0.1);
+    EXPECT_GT(cells.occupied + cells.farFromWalls, 2000);
+    return static_cast<double>(cells.farFromWalls) / (cells.occupied + cells.farFromWalls);
+  };
+  EXPECT_GT(wrongOf(byWheels()), 0.1);
+  EXPECT_LT(wrongOf({}), 0.01);
+}
+
+TEST(Mapper, EstimatesPosesWithinCentimetresThoughWheelsSlip) {
+  Drive run(MapperConfig{});
+  const auto trajectory = run.feed(slippingTour()).finish().trajectory();
+  const auto truth = truthOf(testing::tourOfFourRooms());
+  ASSERT_EQ(trajectory.size(), truth.size());
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const auto off = geometry::inverse(truth[i]) * geometry::toPose2(trajectory[i].T_map_body);
+    EXPECT_LT(std::hypot(off.x, off.y), 0.08) << "scan " << i;
+    EXPECT_LT(std::abs(off.theta), 0.02) << "scan " << i;
+  }
+}
+
+TEST(Mapper, EstimatesPosesOfALogWithoutWheels) {
+  Drive run(MapperConfig{});
+  for (const auto& reading : slippingTour()) {
+    if (reading.sensor == "laser") run.feed({reading});
+  }
+  const auto view = run.finish();
+  const auto truth = truthOf(testing::tourOfFourRooms());
+  EXPECT_LE(run.mapper.report().lost, 2) << "where it turns by 17° from one scan to the next";
+  const auto off = geometry::inverse(truth.back()) * geometry::toPose2(view.trajectory().back().T_map_body);
+  EXPECT_LT(std::hypot(off.x, off.y), 0.1);
+}
+
+TEST(Mapper, TiesSubMapsThatShowTheSamePlaceAndSaysHowWellEachIsKnown) {
+  Drive run(MapperConfig{});
+  const auto view = run.feed(slippingTour()).finish();
+  const auto& graph = view.graph();
+  EXPECT_GT(graph.edges().size(), graph.nodes().size()) << "the tour comes back along the corridor";
+  EXPECT_EQ(view.sessions().back().poses, "estimated");
+  for (const auto id : graph.nodes()) {
+    const auto& covariance = graph.getNode(id).covariance;
+    ASSERT_TRUE(covariance.has_value()) << id;
+    EXPECT_EQ(covariance->isZero(), id.value == 0) << "relative to the first";
+    EXPECT_LT(covariance->diagonal().head<2>().maxCoeff(), 0.1 * 0.1);
+  }
+  for (const auto id : graph.edges()) {
+    const auto& edge = graph.getEdge(id);
+    const Pose3 T_to_told =
+        graph.getNode(edge.to).T_map_submap.inverse() * graph.getNode(edge.from).T_map_submap * edge.T_from_to;
+    EXPECT_LT(T_to_told.translation().norm(), 0.15) << id;
+  }
+}
+
+TEST(Mapper, KeepsTheWayThatWasTravelledBesideTheRefinedOne) {
+  Drive run(MapperConfig{});
+  const auto view = run.feed(slippingTour()).finish();
+  for (const auto& point : view.trajectory()) {
+    const auto& node = view.graph().getNode(point.submap);
+    const Pose3 T_map_body = node.T_map_submap * node.T_travel_submap.inverse() * point.T_travel_body;
+    EXPECT_TRUE(T_map_body.isApprox(point.T_map_body, 1e-9));
+  }
 }
 
 TEST(Mapper, PutsTheFirstSubMapAtTheOriginAndTheOthersBelowTheRobot) {
@@ -181,7 +257,7 @@ TEST(Mapper, LevelsSubMapsWhereTheRobotTilts) {
 }
 
 TEST(Mapper, BeginsASubMapWhereLittleIsSeenOfWhatWasSeenFirst) {
-  MapperConfig config;
+  auto config = byWheels();
   config.submap.maxDistance = 1000.0;
   std::vector<sensors::Reading> log;
   for (int i = 0; i <= 65; ++i) {  // near walls around the robot at first, then a hall
@@ -225,7 +301,7 @@ TEST(Mapper, BeginsASubMapAndAPlaceOnEachFloor) {
   go(50, 0.0);
   go(50, 0.06);
   go(50, 0.0);
-  Drive run(byDistance(6.0), true);
+  Drive run(byDistance(6.0, "recorded"), true);
   const auto view = run.feed(log).finish();
 
   ASSERT_THAT(view.floors(), SizeIs(2));
@@ -280,8 +356,13 @@ TEST(Mapper, TrustsAnEdgeLessTheLongerTheWayAndTheMoreTurns) {
   EXPECT_GT(nearEdge(0, 0), farEdge(0, 0));
   EXPECT_GT(nearEdge(5, 5), farEdge(5, 5));
   EXPECT_GT(nearEdge(5, 5), wobbling(5, 5));
-  EXPECT_NEAR(1.0 / std::sqrt(nearEdge(0, 0)), 0.001 + 0.05 * 2.0, 1e-3);
-  EXPECT_NEAR(1.0 / std::sqrt(nearEdge(5, 5)), 0.001 + 0.01 * 2.0, 1e-3);
+  // Errors of stretches are independent: their variances add up.
+  const map::Matrix6 nearCovariance = nearEdge.inverse();
+  const map::Matrix6 farCovariance = farEdge.inverse();
+  EXPECT_NEAR(std::sqrt(nearCovariance(0, 0)), 0.05 * std::sqrt(2.0), 1e-3);
+  EXPECT_NEAR(std::sqrt(nearCovariance(5, 5)), 0.01 * std::sqrt(2.0), 1e-3);
+  EXPECT_NEAR(farCovariance(0, 0) / nearCovariance(0, 0), 3.0, 0.05);
+  EXPECT_GT(farCovariance(1, 1), farCovariance(0, 0)) << "what the heading is off leads aside";
 }
 
 TEST(Mapper, RecordsWhereTheRobotWasAtEachReading) {

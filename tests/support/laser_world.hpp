@@ -51,6 +51,8 @@ struct LaserRobot {
   double rangeNoise = 0.01;      ///< metres
   double stepLength = 0.1;       ///< metres between scans
   double odometryNoise = 0.002;  ///< metres and radians a step
+  double wheelScale = 1.0;       ///< metres told for each one driven
+  double wheelTurn = 0.0;        ///< radians told for each metre driven straight on
 };
 
 /// Drives from point to point and logs, at each step, odometry and a scan with the same stamp.
@@ -80,7 +82,9 @@ inline std::vector<sensors::Reading> driveThrough(const LaserWorld& world, const
   const auto move = [&](const geometry::Pose2& step) {
     T_world_body = T_world_body * step;
     const auto noise = [&] { return random.normal(0.0, robot.odometryNoise); };
-    T_odom_body = T_odom_body * geometry::Pose2{step.x + noise(), step.y, step.theta + noise()};
+    const geometry::Pose2 told{robot.wheelScale * step.x + noise(), step.y,
+                               step.theta + robot.wheelTurn * step.x + noise()};
+    T_odom_body = T_odom_body * told;
     look();
   };
 
@@ -99,6 +103,39 @@ inline std::vector<sensors::Reading> driveThrough(const LaserWorld& world, const
     }
   }
   return log;
+}
+
+/// A corridor 2 m wide around a block of 12 m by 5 m, with rooms off it of which no two are alike; cells of 0.25 m.
+inline LaserWorld corridorAroundBlock() {
+  constexpr double kCell = 0.25;
+  std::vector<std::string> lines(68, std::string(100, '#'));
+  const auto carve = [&](double x, double y, double width, double height) {
+    for (int row = 0; row < static_cast<int>(height / kCell); ++row) {
+      auto& line = lines[lines.size() - 1 - static_cast<std::size_t>(y / kCell) - static_cast<std::size_t>(row)];
+      line.replace(static_cast<std::size_t>(x / kCell), static_cast<std::size_t>(width / kCell),
+                   static_cast<std::size_t>(width / kCell), '.');
+    }
+  };
+  carve(4, 4, 16, 2);  // the corridor
+  carve(18, 4, 2, 9);
+  carve(4, 11, 16, 2);
+  carve(4, 4, 2, 9);
+  carve(7, 1.5, 2.5, 2.5);  // rooms to the south
+  carve(12.5, 2.75, 1, 1.25);
+  carve(16, 2, 3, 2);
+  carve(20, 6, 1.5, 1.25);  // to the east
+  carve(20, 9, 3.5, 2.5);
+  carve(14, 13, 4, 2.25);  // to the north
+  carve(10, 13, 1.5, 0.75);
+  carve(6, 13, 2, 3);
+  carve(2.5, 9, 1.5, 1);  // to the west
+  carve(1, 5, 3, 2.5);
+  return {std::move(lines), kCell};
+}
+
+/// Once around, and on until well behind where the drive began.
+inline std::vector<Eigen::Vector2d> lapAroundBlock() {
+  return {{6.0, 5.0}, {19.0, 5.0}, {19.0, 12.0}, {5.0, 12.0}, {5.0, 5.0}, {16.0, 5.0}};
 }
 
 /// Four rooms on a corridor, cells of 0.25 m.
