@@ -54,6 +54,7 @@ bench: ## the benchmarks of tests/bench
 	  if [ -e "$$log" ]; then build-bench/tests/bench/bench_grid_insertion "$$log"; else echo "bench: $$log is absent, skipped"; fi; \
 	done
 	@if [ -e "$(firstword $(BENCH_LOGS))" ]; then tests/bench/replay_speed build-bench/apps/prodomos "$(firstword $(BENCH_LOGS))"; fi
+	tests/bench/robustness build-bench "$(PRODOMOS_DATASETS)"
 
 install: build ## install to PREFIX
 	cmake --install $(BUILD) --prefix $(PREFIX)
