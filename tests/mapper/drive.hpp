@@ -38,8 +38,8 @@ inline testing::LaserRobot slippingRobot() {
 
 /// Through all four rooms and back, by a robot whose wheels slip.
 inline const std::vector<sensors::Reading>& slippingTour() {
-  static const auto log = driveThrough(testing::fourRooms(), testing::tourOfFourRooms(), slippingRobot());
-  return log;
+  static const auto kLog = driveThrough(testing::fourRooms(), testing::tourOfFourRooms(), slippingRobot());
+  return kLog;
 }
 
 /// Where the robot of a drive truly is at each of its scans, from where it began.

@@ -63,8 +63,8 @@ std::vector<Stretch> driveAroundBlock(const std::vector<Eigen::Vector2d>& path) 
 }
 
 const std::vector<Stretch>& lap() {
-  static const auto stretches = driveAroundBlock(testing::lapAroundBlock());
-  return stretches;
+  static const auto kStretches = driveAroundBlock(testing::lapAroundBlock());
+  return kStretches;
 }
 
 localization::LoopCloserConfig withoutLoops() {

@@ -293,7 +293,7 @@ TEST(Localizer, GoesOnBitByBitFromWhereItWasSaved) {
       return std::nullopt;
     }
     localizer.expect(reading);
-    const auto located = localizer.locate(reading, nullptr);
+    auto located = localizer.locate(reading, nullptr);
     localizer.forgetBefore(reading.time);
     return located;
   };

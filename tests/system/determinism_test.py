@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 the prodomos authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The same log, configuration and version make the same map, byte for byte in every export."""
+"""The same log, configuration and version make the same map, byte for byte in every export, on however many cores."""
 
 import os
 import subprocess
@@ -10,13 +10,17 @@ import unittest
 from program import SystemTest, dataset, exports, main, tables
 
 
+def on_one_core():
+    os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+
+
 class Determinism(SystemTest):
     def check(self, log, *options):
         runs = []
-        for name in ("first", "second"):
+        for name, limit in (("all_cores", None), ("one_core", on_one_core)):
             folder = self.folder / name
             folder.mkdir()
-            self.replay(log, folder / "map.prodomos", *options)
+            self.replay(log, folder / "map.prodomos", *options, preexec_fn=limit)
             runs.append((exports(folder / "map.prodomos", folder / "exports"), tables(folder / "map.prodomos")))
         self.assertGreaterEqual(len(runs[0][0]), 13)
         self.assertEqual(runs[0][0], runs[1][0])
@@ -27,6 +31,9 @@ class Determinism(SystemTest):
 
     def test_of_depth_images(self):
         self.check(dataset("rgbd/tum_fr3_structure"))
+
+    def test_of_depth_images_without_poses(self):
+        self.check(dataset("rgbd/tum_fr3_structure"), "--poses", "estimated")
 
     def test_of_the_demo(self):
         generator = os.environ.get("PRODOMOS_DEMO_LOG", "")

@@ -18,6 +18,13 @@ def node_poses(path):
     return rows
 
 
+def body_positions(path):
+    with sqlite3.connect(path) as database:
+        rows = database.execute("SELECT x, y, z FROM trajectory ORDER BY session, time_ns").fetchall()
+    database.close()
+    return rows
+
+
 def read_pgm(path):
     magic, size, depth, cells = path.read_bytes().split(b"\n", 3)
     assert (magic, depth) == (b"P5", b"255")
@@ -25,15 +32,17 @@ def read_pgm(path):
 
 
 class Logs(SystemTest):
-    def check(self, name, *options, kinds):
+    def check(self, name, *options, kinds, poses="estimated"):
         log = dataset(name)
-        output, report_file = self.folder / f"{log.name}.prodomos", self.folder / "report.json"
+        output, report_file = self.folder / f"{log.name}.{poses}.prodomos", self.folder / "report.json"
         self.replay(log, output, "--report", report_file, *options)
         report = json.loads(report_file.read_text())
         readings = report["readings"]
         self.assertEqual(readings["used"] + sum(readings["skipped"].values()), readings["read"])
         self.assertEqual(sum(readings["used_by_kind"].values()), readings["used"])
         self.assertEqual(readings["used_by_kind"], kinds)
+        self.assertEqual(report["poses"]["origin"], poses)
+        self.assertLessEqual(report["poses"]["lost"], readings["used"])
         self.assertGreaterEqual(report["submaps"], 1)
         self.assertGreaterEqual(report["places"], 1)
         self.assertGreaterEqual(report["distance_m"], 0.0)
@@ -76,10 +85,11 @@ class Logs(SystemTest):
         self.check("rgbd/single_frame.rawlog", kinds={"rgbd_frame": 1})
 
     def test_maps_a_tum_folder_with_recorded_poses(self):
-        self.check("rgbd/tum_fr1_rpy", "--poses", "recorded", kinds={"rgbd_frame": 232, "recorded_pose": 2742})
+        self.check("rgbd/tum_fr1_rpy", "--poses", "recorded", poses="recorded",
+                   kinds={"rgbd_frame": 232, "recorded_pose": 2742})
 
     def test_maps_a_tum_folder_of_another_camera(self):
-        self.check("rgbd/tum_fr3_structure", "--camera", "535.4,539.2,320.1,247.6",
+        self.check("rgbd/tum_fr3_structure", "--camera", "535.4,539.2,320.1,247.6", poses="recorded",
                    kinds={"rgbd_frame": 30, "recorded_pose": 2729})
 
     def test_maps_a_folder_of_images_without_time_stamps(self):
@@ -107,14 +117,28 @@ class Logs(SystemTest):
         # One flavour holds poses, the other their increments; summing these up rounds in the last bits, and an end
         # point on the very border of two cells may fall to either side.
         kinds = {"laser_scan": 1159, "odometry": 1161}
-        self.check_alike(self.check("laser/driving_in_office.rawlog", kinds=kinds),
-                         self.check("laser/driving_in_office_obs.rawlog", kinds=kinds), 1e-9, 1e-5)
+        for poses, tolerance in (("odometry", 1e-9), ("estimated", 1e-6)):
+            with self.subTest(poses=poses):
+                maps = [self.check(f"laser/{name}.rawlog", "--poses", poses, poses=poses, kinds=kinds)
+                        for name in ("driving_in_office", "driving_in_office_obs")]
+                self.check_alike(*maps, tolerance, 1e-5)
+
+    # A rawlog counts time in 100 ns and holds ranges as floats, CARMEN's text has decimals; and of the log's many
+    # odometry lines the rawlog kept one a scan.
+    FR079 = (("laser/fr079.rawlog", {"laser_scan": 4934, "odometry": 4934}),
+             ("laser/fr079.clf.bz2", {"laser_scan": 4934, "odometry": 13885}))
 
     def test_maps_a_rawlog_and_the_carmen_log_it_was_made_of_alike(self):
-        # A rawlog counts time in 100 ns and holds ranges as floats, CARMEN's text has decimals; and of the log's many
-        # odometry lines the rawlog kept one a scan.
-        self.check_alike(self.check("laser/fr079.rawlog", kinds={"laser_scan": 4934, "odometry": 4934}),
-                         self.check("laser/fr079.clf.bz2", kinds={"laser_scan": 4934, "odometry": 13885}), 1e-9, 1e-5)
+        maps = [self.check(name, "--poses", "odometry", poses="odometry", kinds=kinds) for name, kinds in self.FR079]
+        self.check_alike(*maps, 1e-9, 1e-5)
+
+    def test_estimates_the_same_way_from_a_rawlog_and_its_carmen_log(self):
+        # Where little tells the pose, a rounded bit decides it; all in all the ways are one.
+        ways = [body_positions(self.check(name, kinds=kinds)) for name, kinds in self.FR079]
+        self.assertEqual(len(ways[0]), len(ways[1]))
+        mean = sum(map(math.dist, *ways)) / len(ways[0])
+        print(f"[{mean:.4f} m apart in the mean] ", end="", flush=True)
+        self.assertLessEqual(mean, 0.03)
 
 
 if __name__ == "__main__":

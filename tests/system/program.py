@@ -51,8 +51,8 @@ class SystemTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def replay(self, log, output, *options):
-        done = run("replay", log, "-o", output, "--quiet", *options)
+    def replay(self, log, output, *options, **how):
+        done = run("replay", log, "-o", output, "--quiet", *options, **how)
         self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
         return done
 
