@@ -126,14 +126,14 @@ Match LaserOdometry::find(std::span<const Eigen::Vector2d> points_in_body) const
   const auto prior = predict(steps_.back());
   auto best = matchScan(points_in_body, older_, prior, config_.match);
   if (points_in_body.size() < kLeastPoints) return {.T_map_body = prior.T_map_body};
-  const auto take = [&](const Match& other, double lead) {
-    if (other.explained > best.explained + lead) best = other;
+  const auto take = [&](const Match& other) {
+    if (other.explained > best.explained + kBetter) best = other;
   };
   // Wheels are read late at times, and then tell two steps at once: over several steps they are right again.
   const auto longPrior = predict(steps_.front());
   const auto difference = geometry::inverse(prior.T_map_body) * longPrior.T_map_body;
   if (hasWheels_ && wayOf(difference) > kLateWheels)
-    take(matchScan(points_in_body, older_, longPrior, config_.match), 0.0);
+    take(matchScan(points_in_body, older_, longPrior, config_.match));
 
   // Wheels lead near enough, but where they have lost it.
   const double leastExplained = hasWheels_ ? config_.leastExplained : 2.0 * config_.leastExplained;
@@ -141,7 +141,7 @@ Match LaserOdometry::find(std::span<const Eigen::Vector2d> points_in_body) const
     const LikelihoodField field(older_, kSearchResolution, kSearchLevels);
     const double turn = best.explained < config_.leastExplained ? kLostTurn : kSearchTurn;
     if (const auto found = searchPose(points_in_body, field, {best.T_map_body, kSearchReach, turn}, best.explained)) {
-      take(matchScan(points_in_body, older_, {.T_map_body = found->T_map_body}, config_.match), kBetter);
+      take(matchScan(points_in_body, older_, {.T_map_body = found->T_map_body}, config_.match));
     }
   }
   if (best.explained < config_.leastExplained) best.T_map_body = longPrior.T_map_body;
