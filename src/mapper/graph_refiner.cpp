@@ -14,6 +14,7 @@
 #include <memory>
 #include <numeric>
 #include <set>
+#include <span>
 
 namespace prodomos::mapper {
 
@@ -37,6 +38,13 @@ constexpr double kAgreement = 0.5;      // metres
 constexpr double kAgreementTurn = 0.1;  // radians
 
 constexpr double kBeside = 40.0;  // metres; two sub-maps hardly reach that far towards each other
+
+/// Of things that take many bytes each.
+std::size_t countOf(base::ByteReader& in) {
+  const auto count = in.read<std::uint64_t>();
+  if (count > in.left()) throw base::Error("expected fewer than " + std::to_string(count) + " parts of a graph");
+  return static_cast<std::size_t>(count);
+}
 
 /// x, y and yaw of six.
 constexpr std::array<int, 3> kPlanar = {0, 1, 5};
@@ -169,7 +177,21 @@ void GraphRefiner::close(const map::SubMap& finished) {
   }
   if (loops.empty()) return;
   joinComponents();
-  refine(true);
+  const auto found = std::span(ties_).last(loops.size());
+  if (std::ranges::any_of(found, [&](const Tie& tie) { return isNews(tie); })) refine(true);
+}
+
+/// Does the tie say anything that the poses do not say already? Where rooms have been seen often, hardly any does, and
+/// moving the whole map can wait.
+bool GraphRefiner::isNews(const Tie& tie) const {
+  if (tie.state == TieState::kBetweenComponents) return false;
+  const geometry::Pose3 T_from_to = T_map_submap(tie.edge.from).inverse() * T_map_submap(tie.edge.to);
+  const geometry::Pose3 deviation = tie.edge.T_from_to.inverse() * T_from_to;
+  const Eigen::AngleAxisd turn(deviation.linear());
+  Eigen::Matrix<double, 6, 1> error;
+  error << deviation.translation(), turn.angle() * turn.axis();
+  constexpr double kExpected = 6.0;  // of chi-square with six degrees of freedom
+  return error.dot(tie.edge.information * error) > kExpected;
 }
 
 void GraphRefiner::tie(const localization::Loop& loop, bool joins) {
@@ -384,13 +406,13 @@ void GraphRefiner::save(base::ByteWriter& out) const {
 }
 
 void GraphRefiner::load(base::ByteReader& in) {
-  vertices_.resize(in.read<std::uint64_t>());
+  vertices_.resize(countOf(in));
   for (auto& [node, T_map_told, isTold] : vertices_) {
     node = loadNode(in);
     T_map_told = loadPose(in);
     in >> isTold;
   }
-  ties_.resize(in.read<std::uint64_t>());
+  ties_.resize(countOf(in));
   for (auto& [edge, state, isTold] : ties_) {
     edge = loadEdge(in);
     in >> state >> isTold;

@@ -69,6 +69,7 @@ class GraphRefiner {
 
   void tie(const localization::Loop& loop, bool joins);
   void joinComponents();
+  bool isNews(const Tie& tie) const;
   void refine(bool isIncremental);
 
   const map::MapStore& store_;
