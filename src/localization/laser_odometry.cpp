@@ -132,8 +132,7 @@ Match LaserOdometry::find(std::span<const Eigen::Vector2d> points_in_body) const
   // Wheels are read late at times, and then tell two steps at once: over several steps they are right again.
   const auto longPrior = predict(steps_.front());
   const auto difference = geometry::inverse(prior.T_map_body) * longPrior.T_map_body;
-  if (hasWheels_ && wayOf(difference) > kLateWheels)
-    take(matchScan(points_in_body, older_, longPrior, config_.match));
+  if (hasWheels_ && wayOf(difference) > kLateWheels) take(matchScan(points_in_body, older_, longPrior, config_.match));
 
   // Wheels lead near enough, but where they have lost it.
   const double leastExplained = hasWheels_ ? config_.leastExplained : 2.0 * config_.leastExplained;

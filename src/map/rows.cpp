@@ -5,8 +5,6 @@
 #include "prodomos/map/config.hpp"
 
 #include "map/blob.hpp"
-
-#include "prodomos/map/config.hpp"
 #include "map/names.hpp"
 #include "map/schema.hpp"
 

@@ -163,11 +163,11 @@ TEST(G2o, HoldsTheObservedPoseGraphAlone) {
 TEST(G2o, GivesTheInformationOfHalfAngles) {
   const auto edge = g2oLines(test::write("g2o", sampleView()), "EDGE_SE3:QUAT").at(1);
   const std::vector<double> information(edge.begin() + 9, edge.end());
-  EXPECT_THAT(information, testing::Pointwise(testing::DoubleNear(1e-6), {100, 10, 0, 0, 0, 0,  //
-                                                                          200, 0,  0, 0, 0,     //
-                                                                          300, 0,  0, 0,        //
-                                                                          1600, 0, 0,           //
-                                                                          2000, 0,              //
+  EXPECT_THAT(information, testing::Pointwise(testing::DoubleNear(1e-6), {100,  10, 0, 0, 0, 0,  //
+                                                                          200,  0,  0, 0, 0,     //
+                                                                          300,  0,  0, 0,        //
+                                                                          1600, 0,  0,           //
+                                                                          2000, 0,               //
                                                                           2400}));
 }
 

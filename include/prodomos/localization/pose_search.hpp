@@ -59,8 +59,8 @@ struct FoundPose {
 };
 
 /// The best pose of the window on the field, to its resolution, by branch and bound: what exhaustive search would find.
-/// None where no pose has at least `leastScore`. Poses nearer to `apart` than `margin` (metres, and as many radians) are
-/// left out.
+/// None where no pose has at least `leastScore`. Poses nearer to `apart` than `margin` (metres, and as many radians)
+/// are left out.
 std::optional<FoundPose> searchPose(std::span<const Eigen::Vector2d> points_in_body, const LikelihoodField& field,
                                     const SearchWindow& window, double leastScore,
                                     const std::optional<geometry::Pose2>& apart = std::nullopt, double margin = 0.0);

@@ -18,8 +18,8 @@ namespace prodomos::map {
 struct PlacedReading {
   const sensors::Reading& reading;
   geometry::Pose3 T_submap_body = geometry::Pose3::Identity();
-  /// Of the body while the reading was taken, in its own axes: x and y in metres a second, yaw in radians a second. What
-  /// sweeps while it moves is put right by it.
+  /// Of the body while the reading was taken, in its own axes: x and y in metres a second, yaw in radians a second.
+  /// What sweeps while it moves is put right by it.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   const sensors::Mask* movers = nullptr;  ///< pixels, points or beams that are of something that moves; null: none
 };
