@@ -47,29 +47,29 @@ MotionMatrix<Pose> Covariances<Pose>::of(std::int64_t id) {
 
 template <typename Pose>
 MotionMatrix<Pose> Covariances<Pose>::relative(std::int64_t from, std::int64_t to) const {
-  constexpr int D = Impl::kDimension;
+  constexpr int kD = Impl::kDimension;
   auto& problem = impl_->problem;
   const std::array vertices = {problem.index().at(from), problem.index().at(to)};
   const auto& states = problem.states();
   // How the pose of `to` in `from` deviates as either moves: the error of a measurement that is met exactly.
-  LinearizedError<D> linear;
+  LinearizedError<kD> linear;
   const auto measured = PoseSpace<Pose>::between(states[vertices[0]], states[vertices[1]]);
   PoseSpace<Pose>::linearize(states[vertices[0]], states[vertices[1]], measured, linear);
   const std::array motions = {linear.byFrom, linear.byTo};
 
   // J H^-1 J^T, a column of H^-1 J^T at a time.
   MotionMatrix<Pose> covariance = MotionMatrix<Pose>::Zero();
-  Eigen::VectorXd column(problem.unknowns() * D);
-  for (int axis = 0; axis < D; ++axis) {
+  Eigen::VectorXd column(static_cast<Eigen::Index>(problem.unknowns()) * kD);
+  for (int axis = 0; axis < kD; ++axis) {
     column.setZero();
     for (std::size_t end = 0; end < 2; ++end) {
       const int unknown = problem.unknownOf(vertices[end]);
-      if (unknown >= 0) column.template segment<D>(unknown * D) += motions[end].row(axis).transpose();
+      if (unknown >= 0) column.template segment<kD>(unknown * kD) += motions[end].row(axis).transpose();
     }
     impl_->cholesky.solve(column);
     for (std::size_t end = 0; end < 2; ++end) {
       const int unknown = problem.unknownOf(vertices[end]);
-      if (unknown >= 0) covariance.col(axis) += motions[end] * column.template segment<D>(unknown * D);
+      if (unknown >= 0) covariance.col(axis) += motions[end] * column.template segment<kD>(unknown * kD);
     }
   }
   return 0.5 * (covariance + covariance.transpose());

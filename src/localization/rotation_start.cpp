@@ -25,7 +25,8 @@ class LinearGraph {
   using Block = Eigen::Matrix<double, N, N>;
   using Value = Eigen::Matrix<double, N, C>;
 
-  LinearGraph(int unknowns, const std::vector<BlockPlace>& places) : sides_(Eigen::MatrixXd::Zero(unknowns * N, C)) {
+  LinearGraph(int unknowns, const std::vector<BlockPlace>& places)
+      : sides_(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(unknowns) * N, C)) {
     equations_.places = places;
     equations_.diagonal.assign(static_cast<std::size_t>(unknowns), Block::Zero());
     equations_.offDiagonal.assign(places.size(), Block::Zero());
@@ -81,10 +82,10 @@ template <typename Pose>
 std::vector<typename PoseProblem<Pose>::State> statesByRotations(
     const PoseProblem<Pose>& problem, const std::shared_ptr<const Elimination>& elimination) {
   using Space = PoseSpace<Pose>;
-  constexpr int N = Space::kAxes;
-  constexpr int kAngles = kDegreesOfFreedom<Pose> - N;
-  using Block = Eigen::Matrix<double, N, N>;
-  using Vector = Eigen::Matrix<double, N, 1>;
+  constexpr int kAxes = Space::kAxes;
+  constexpr int kAngles = kDegreesOfFreedom<Pose> - kAxes;
+  using Block = Eigen::Matrix<double, kAxes, kAxes>;
+  using Vector = Eigen::Matrix<double, kAxes, 1>;
 
   auto states = problem.states();
   std::vector<Block> transposed;  // of the rotations: R_to^T = R_measured^T R_from^T
@@ -93,9 +94,9 @@ std::vector<typename PoseProblem<Pose>::State> statesByRotations(
     transposed.push_back(Space::rotationOf(state).transpose());
     positions.push_back(state.translation);
   }
-  BlockCholesky<N> cholesky(elimination);
+  BlockCholesky<kAxes> cholesky(elimination);
 
-  LinearGraph<N, N> rotations(problem.unknowns(), problem.places());
+  LinearGraph<kAxes, kAxes> rotations(problem.unknowns(), problem.places());
   for (const auto& m : problem.measurements()) {
     const double weight = m.information.template bottomRightCorner<kAngles, kAngles>().trace() / kAngles;
     rotations.add(m, problem.unknownOf(m.from), problem.unknownOf(m.to), weight * Block::Identity(),
@@ -104,14 +105,15 @@ std::vector<typename PoseProblem<Pose>::State> statesByRotations(
   if (!rotations.solve(cholesky)) return states;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const int unknown = problem.unknownOf(i);
-    if (unknown >= 0) transposed[i] = nearestRotation<N>(rotations.value(unknown));
+    if (unknown >= 0) transposed[i] = nearestRotation<kAxes>(rotations.value(unknown));
   }
 
-  LinearGraph<N, 1> shifts(problem.unknowns(), problem.places());
+  LinearGraph<kAxes, 1> shifts(problem.unknowns(), problem.places());
   for (const auto& m : problem.measurements()) {
     const Block R_map_from = transposed[m.from].transpose();
     const Block R_measured_map = (R_map_from * Space::rotationOf(m.measured)).transpose();
-    const Block weight = R_measured_map.transpose() * m.information.template topLeftCorner<N, N>() * R_measured_map;
+    const Block weight =
+        R_measured_map.transpose() * m.information.template topLeftCorner<kAxes, kAxes>() * R_measured_map;
     shifts.add(m, problem.unknownOf(m.from), problem.unknownOf(m.to), weight, Block::Identity(),
                R_map_from * m.measured.translation, positions);
   }
