@@ -39,18 +39,6 @@ bool isUsable(const sensors::RgbdFrame& frame, const sensors::Mask* movers) {
   return fits(frame.color) && (movers == nullptr || fits(*movers));
 }
 
-/// Maps errors in one frame's own axes into those of another that is fixed to it (Barfoot 2017, eq. 7.37).
-map::Matrix6 adjoint(const Pose3& T_to_from) {
-  map::Matrix6 result = map::Matrix6::Zero();
-  const Eigen::Vector3d& t = T_to_from.translation();
-  Eigen::Matrix3d cross;
-  cross << 0, -t.z(), t.y(), t.z(), 0, -t.x(), -t.y(), t.x(), 0;
-  result.topLeftCorner<3, 3>() = T_to_from.linear();
-  result.bottomRightCorner<3, 3>() = T_to_from.linear();
-  result.topRightCorner<3, 3>() = cross * T_to_from.linear();
-  return result;
-}
-
 void savePose(base::ByteWriter& out, const Pose3& pose) {
   out.append(pose.matrix().data(), 16 * sizeof(double));
 }
@@ -274,7 +262,7 @@ RgbdOdometry::Estimate RgbdOdometry::Implementation::lost(base::Time time, const
   estimate.isLost = true;
   estimate.isLevelled = isLevelled_;
   estimate.T_world_body = T_world_last_;
-  const map::Matrix6 toBody = adjoint(T_body_camera_);
+  const map::Matrix6 toBody = geometry::adjoint(T_body_camera_);
   estimate.covariance = toBody * belief.sigma.cwiseAbs2().asDiagonal() * toBody.transpose();
   return estimate;
 }
@@ -302,10 +290,10 @@ RgbdOdometry::Estimate RgbdOdometry::Implementation::accept(base::Time time, con
   up_in_world_ += T_world_body.linear().col(2);
   lostFrames_ = 0;
   unrecognized_ = 0;
-  const map::Matrix6 toBody = adjoint(T_body_camera_);
+  const map::Matrix6 toBody = geometry::adjoint(T_body_camera_);
   const map::Matrix6 covariance =
       toBody * found.alignment.information.ldlt().solve(map::Matrix6::Identity()) * toBody.transpose();
-  const map::Matrix6 back = adjoint(T_last_body.inverse());
+  const map::Matrix6 back = geometry::adjoint(T_last_body.inverse());
   Estimate estimate;
   estimate.covariance = covariance + back * lastCovariance_ * back.transpose();
   lastCovariance_ = covariance;
