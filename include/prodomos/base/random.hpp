@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <string_view>
 
 namespace prodomos::base {
 
@@ -14,6 +15,8 @@ namespace prodomos::base {
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
+  /// A sequence of its own for each purpose, so that drawing more for one changes nothing for the others.
+  Random(std::uint64_t seed, std::string_view purpose) : engine_(seed ^ hash(purpose)) {}
 
   /// In [0, 1).
   double uniform() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
@@ -30,6 +33,13 @@ class Random {
   }
 
  private:
+  /// FNV-1a.
+  static constexpr std::uint64_t hash(std::string_view text) {
+    std::uint64_t value = 0xcbf29ce484222325U;
+    for (const char c : text) value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+    return value;
+  }
+
   std::mt19937_64 engine_;
 };
 
