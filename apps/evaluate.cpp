@@ -3,10 +3,12 @@
 #include "prodomos/base/error.hpp"
 #include "prodomos/evaluation/relations.hpp"
 #include "prodomos/evaluation/trajectory.hpp"
+#include "prodomos/evaluation/truth.hpp"
 #include "prodomos/io/trajectory_file.hpp"
 #include "prodomos/map/map_view.hpp"
 
 #include "commands.hpp"
+#include "evaluate_kinds.hpp"
 #include "text.hpp"
 
 #include <nlohmann/json.hpp>
@@ -24,27 +26,6 @@ using evaluation::Statistics;
 using nlohmann::json;
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
-
-/// What every kind is asked with.
-struct EvaluateOptions {
-  std::string map;
-  std::string poses = "refined";
-  bool json = false;
-  std::string truth;           ///< the file to compare with
-  std::string frame = "auto";  ///< of the truth's poses
-  double delta = 1.0;          ///< seconds
-};
-
-json toJson(const Statistics& s) {
-  return {{"mean", s.mean},
-          {"std", s.std},
-          {"rmse", s.rmse},
-          {"squared_mean", s.squaredMean},
-          {"squared_std", s.squaredStd},
-          {"median", s.median},
-          {"min", s.min},
-          {"max", s.max}};
-}
 
 /// "0.0229 ± 0.0240 m": the mean and its deviation, as the papers' tables have it.
 std::string meanAndStd(double mean, double std, const std::string& unit, int decimals) {
@@ -64,7 +45,7 @@ std::string timesOf(const std::vector<evaluation::TimedPose>& poses, const std::
 
 // --- relations ---
 
-json toJson(const std::vector<evaluation::RelationError>& errors) {
+json listOf(const std::vector<evaluation::RelationError>& errors) {
   json list = json::array();
   for (const auto& error : errors) {
     list.push_back({{"first", base::toString(error.first)},
@@ -85,12 +66,12 @@ void print(const std::string& title, const std::vector<evaluation::RelationError
 
 void evaluateRelations(const EvaluateOptions& options) {
   const auto relations = evaluation::readRelations(options.truth);
-  const auto poses = bodyPosesOf(map::MapView::open(options.map), options);
+  const auto poses = bodyPosesOf(map::MapView::open(options.maps.front()), options);
   const auto errors = evaluation::relationErrors(poses, relations);
   if (errors.empty()) {
-    throw base::FileError(
-        base::expectedFound(options.truth, "relations between times of the map's trajectory",
-                            "none of " + std::to_string(relations.size()) + "; " + timesOf(poses, options.map)));
+    throw base::FileError(base::expectedFound(
+        options.truth, "relations between times of the map's trajectory",
+        "none of " + std::to_string(relations.size()) + "; " + timesOf(poses, options.maps.front())));
   }
   const auto score = evaluation::scoreOf(errors);
   if (options.json) {
@@ -99,14 +80,14 @@ void evaluateRelations(const EvaluateOptions& options) {
                       {"matched", errors.size()},
                       {"translation_m", toJson(score.translation)},
                       {"rotation_deg", toJson(score.rotation)},
-                      {"worst_translation", toJson(score.worstShifted)},
-                      {"worst_rotation", toJson(score.worstTurned)}}
+                      {"worst_translation", listOf(score.worstShifted)},
+                      {"worst_rotation", listOf(score.worstTurned)}}
                      .dump(2)
               << '\n';
     return;
   }
-  std::cout << options.map << ", " << options.poses << " poses: " << errors.size() << " of " << relations.size()
-            << " relations\n";
+  std::cout << options.maps.front() << ", " << options.poses << " poses: " << errors.size() << " of "
+            << relations.size() << " relations\n";
   const auto printScore = [](const char* title, const Statistics& s, const std::string& unit, int decimals) {
     std::cout << "  " << title << meanAndStd(s.mean, s.std, unit, decimals) << ", squared "
               << meanAndStd(s.squaredMean, s.squaredStd, unit + "²", decimals) << ", median "
@@ -145,7 +126,7 @@ std::vector<evaluation::TimedPose> readTruth(const std::string& path) {
 
 void evaluateTrajectory(const EvaluateOptions& options) {
   const auto truth = readTruth(options.truth);
-  const auto view = map::MapView::open(options.map);
+  const auto view = map::MapView::open(options.maps.front());
   auto poses = bodyPosesOf(view, options);
   const bool ofCamera = truthIsOfCamera(view, options);
   // Alignment takes care of the frame that poses are given in, on the left; what is tracked, on the right, must be one.
@@ -156,7 +137,7 @@ void evaluateTrajectory(const EvaluateOptions& options) {
   if (pairs.empty()) {
     throw base::FileError(
         base::expectedFound(options.truth, "poses at times of the map's trajectory",
-                            "none of " + std::to_string(truth.size()) + "; " + timesOf(poses, options.map)));
+                            "none of " + std::to_string(truth.size()) + "; " + timesOf(poses, options.maps.front())));
   }
   const auto absolute = evaluation::statisticsOf(evaluation::absoluteErrors(pairs));
   auto relative = evaluation::relativeErrors(poses, truth, base::fromSeconds(options.delta));
@@ -178,7 +159,7 @@ void evaluateTrajectory(const EvaluateOptions& options) {
               << '\n';
     return;
   }
-  std::cout << options.map << ", " << options.poses << " poses: " << pairs.size() << " of " << poses.size()
+  std::cout << options.maps.front() << ", " << options.poses << " poses: " << pairs.size() << " of " << poses.size()
             << " have a true pose of the " << frame << '\n';
   const auto printScore = [](const char* title, const Statistics& s, const std::string& unit, int decimals) {
     std::cout << "  " << title << "rmse " << fixed(s.rmse, decimals) << " " << unit << ", mean "
@@ -211,20 +192,57 @@ void addTrajectory(CLI::App& kind, EvaluateOptions& options) {
       ->check(CLI::PositiveNumber);
 }
 
-/// What can be scored.
-struct Kind {
-  const char* name;
-  const char* text;
-  void (*addOptions)(CLI::App& kind, EvaluateOptions& options);
-  void (*evaluate)(const EvaluateOptions& options);
-};
+constexpr Kind kRelations = {"relations", "the way against true relations between poses", addRelations,
+                             evaluateRelations};
+constexpr Kind kTrajectory = {"trajectory", "the way against true poses", addTrajectory, evaluateTrajectory};
 
-constexpr std::array kKinds = {
-    Kind{"relations", "the way against true relations between poses", addRelations, evaluateRelations},
-    Kind{"trajectory", "the way against true poses", addTrajectory, evaluateTrajectory},
-};
+constexpr std::array kKinds = {&kRelations, &kTrajectory};
+
+void addCommonOptions(CLI::App& kind, EvaluateOptions& options, bool againstTruthFiles) {
+  if (!againstTruthFiles) {
+    kind.add_option("MAP", options.maps, "the map file")->required()->expected(1);
+    return;
+  }
+  kind.add_option("MAP", options.maps, "the map file; several are scored together")->required();
+  kind.add_option("--truth", options.truths, "LOG.truth.json of each map, in their order (default: beside its log)")
+      ->allow_extra_args(false);
+  kind.add_option("--html", options.html, "write a page with the pictures");
+}
 
 }  // namespace
+
+json toJson(const Statistics& s) {
+  return {{"mean", s.mean},
+          {"std", s.std},
+          {"rmse", s.rmse},
+          {"squared_mean", s.squaredMean},
+          {"squared_std", s.squaredStd},
+          {"median", s.median},
+          {"min", s.min},
+          {"max", s.max}};
+}
+
+std::vector<MapAndTruth> mapsAndTruths(const EvaluateOptions& options) {
+  const auto& truths = options.truths;
+  if (!truths.empty() && truths.size() != options.maps.size()) {
+    throw base::UsageError(base::expectedFound(
+        "--truth", std::to_string(options.maps.size()) + " files, as many as maps", std::to_string(truths.size())));
+  }
+  std::vector<MapAndTruth> pairs;
+  for (std::size_t i = 0; i < options.maps.size(); ++i) {
+    const auto& map = options.maps[i];
+    if (!truths.empty()) {
+      pairs.push_back({map, truths[i]});
+      continue;
+    }
+    const auto view = map::MapView::open(map);
+    if (view.sessions().empty()) {
+      throw base::FileError(base::expectedFound(map, "a log that it was made of", "none; name its truth by --truth"));
+    }
+    pairs.push_back({map, evaluation::truthPath(view.sessions().front().log).string()});
+  }
+  return pairs;
+}
 
 void addEvaluate(CLI::App& program) {
   auto* command = program.add_subcommand("evaluate", "score a map against truth");
@@ -234,15 +252,15 @@ void addEvaluate(CLI::App& program) {
       "Examples:\n"
       "  prodomos evaluate relations intel.prodomos --relations intel.relations\n"
       "  prodomos evaluate trajectory room.prodomos --truth groundtruth.txt --json");
-  for (const auto& kind : kKinds) {
-    auto* subcommand = command->add_subcommand(kind.name, kind.text);
+  for (const Kind* kind : kKinds) {
+    auto* subcommand = command->add_subcommand(kind->name, kind->text);
     auto options = std::make_shared<EvaluateOptions>();
-    subcommand->add_option("MAP", options->map, "the map file")->required();
-    kind.addOptions(*subcommand, *options);
+    addCommonOptions(*subcommand, *options, kind->againstTruthFiles);
+    kind->addOptions(*subcommand, *options);
     subcommand->add_option("--poses", options->poses, "refined (default) or travelled: as before all refinement")
         ->check(CLI::IsMember({"refined", "travelled"}));
     subcommand->add_flag("--json", options->json, "as JSON (docs/evaluation.md)");
-    subcommand->callback([options, evaluate = kind.evaluate] { evaluate(*options); });
+    subcommand->callback([options, evaluate = kind->evaluate] { evaluate(*options); });
   }
 }
 
