@@ -36,7 +36,8 @@ struct Room {
   int storey = 0;
   std::string label;  ///< as its source has it, upper case: "CLASSROOM"
   RoomUse use = RoomUse::kRoom;
-  Polygon outline;  ///< the faces of its walls, simple, counter-clockwise; not closed
+  Polygon outline;         ///< the faces of its walls, simple, counter-clockwise; not closed
+  bool furnished = false;  ///< its source says all that stands in it: furnish() adds nothing
 };
 
 inline constexpr int kOutside = -1;
@@ -67,8 +68,8 @@ struct Door {
 /// A straight flight.
 struct Staircase {
   std::string id;
-  int lowerStorey = 0;
-  int upperStorey = 1;
+  int lowerStorey = 0;  ///< -1: a storey below all others, of which nothing else is known; its foot is below z = 0
+  int upperStorey = 1;  ///< storeys.size(): likewise above
   std::array<int, 2> rooms{kOutside, kOutside};    ///< that its foot and its head stand in
   Eigen::Vector3d foot = Eigen::Vector3d::Zero();  ///< middle of the first riser's lower edge
   double direction = 0.0;                          ///< uphill
