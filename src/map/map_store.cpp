@@ -122,6 +122,24 @@ class ChangeWriter {
     }
   }
 
+  void write(const std::vector<Track>& tracks) {
+    auto row = database_.prepare(upsertion("track", "id", "session, class, attributes, revision"));
+    auto state = database_.prepare(
+        upsertion("track_state", "track, time_ns", "node, " + poseColumns() + ", vx, vy, vz, attributes, revision"));
+    for (const auto& track : tracks) {
+      row << track.id << track.session << track.className << track.attributes << revision_;
+      row.run();
+      for (const auto& s : track.states) {
+        const auto speed = [&](int axis) {
+          return s.velocity_in_submap ? std::optional((*s.velocity_in_submap)[axis]) : std::nullopt;
+        };
+        state << track.id << s.time << s.submap << s.T_submap_thing << speed(0) << speed(1) << speed(2) << s.attributes
+              << revision_;
+        state.run();
+      }
+    }
+  }
+
   void write(const std::vector<std::pair<base::SubMapId, const MapLayer*>>& layers) {
     auto row = database_.prepare(upsertion("layer", "node, type", "version, codec, raw_size, crc32, data, revision"));
     for (const auto& [submap, layer] : layers) {
@@ -237,6 +255,7 @@ std::int64_t MapStore::commit(const MapChange& change) {
   writer.write(change.predictions);
   writer.write(change.trajectory);
   writer.write(change.events);
+  writer.write(change.tracks);
   writer.write(change.layers);
   if (change.checkpoint) writer.write(*change.checkpoint);
   if (!change.nodes.empty() || !change.edges.empty() || !change.removedEdges.empty()) writer.updatePlaces();

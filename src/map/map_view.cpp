@@ -188,6 +188,33 @@ std::vector<Event> MapView::events() const {
   return readEvents(*database_, 0);
 }
 
+std::vector<Track> MapView::tracks() const {
+  const Database::Snapshot snapshot(*database_);
+  std::vector<Track> tracks;
+  auto row = database_->prepare("SELECT id, session, class, attributes FROM track ORDER BY id");
+  while (row.step()) {
+    Track track{getId<base::TrackId>(row, 0),
+                getId<base::SessionId>(row, 1),
+                row.get<std::string>(2),
+                row.get<std::string>(3),
+                {}};
+    auto state = database_->prepare(
+        "SELECT time_ns, node, x, y, z, qx, qy, qz, qw, vx, vy, vz, attributes FROM track_state WHERE track = ? "
+        "ORDER BY time_ns");
+    state << track.id;
+    while (state.step()) {
+      TrackState s{getTime(state, 0), getId<base::SubMapId>(state, 1), getPose(state, 2), std::nullopt,
+                   state.get<std::string>(12)};
+      if (state.find<double>(9)) {
+        s.velocity_in_submap = {state.get<double>(9), state.get<double>(10), state.get<double>(11)};
+      }
+      track.states.push_back(std::move(s));
+    }
+    tracks.push_back(std::move(track));
+  }
+  return tracks;
+}
+
 MapChanges MapView::changesSince(std::int64_t revision) const {
   const Database::Snapshot snapshot(*database_);
   MapChanges changes;

@@ -131,6 +131,7 @@ TEST_F(MapFile, HoldsNothingAtFirst) {
   EXPECT_THAT(view.predictions(), IsEmpty());
   EXPECT_THAT(view.trajectory(), IsEmpty());
   EXPECT_THAT(view.events(), IsEmpty());
+  EXPECT_THAT(view.tracks(), IsEmpty());
   EXPECT_THAT(view.layersOf({1}), IsEmpty());
   EXPECT_EQ(view.findLayer<OccupancyGrid>({1}), nullptr);
 }
@@ -140,6 +141,38 @@ TEST_F(MapFile, KeepsAnEmptyCommitAsARevision) {
   EXPECT_EQ(store.commit({}), 1);
   EXPECT_EQ(store.commit({}), 2);
   EXPECT_EQ(store.view().revision(), 2);
+}
+
+TEST_F(MapFile, KeepsTracksAndAddsWhatTheyDidSince) {
+  auto change = twoNodes();
+  Track walker{.id = {3}, .session = {1}, .className = "human", .attributes = R"({"name":"Ada"})"};
+  walker.states = {{at(1), {1}, somePose(1), Eigen::Vector3d(0.5, -1.0, 0.0), R"({"joints":[]})"},
+                   {at(2), {2}, somePose(2), std::nullopt, "{}"}};
+  change.tracks = {walker};
+  auto store = MapStore::create(path_);
+  store.commit(change);
+  MapChange later;
+  later.tracks = {{.id = {3}, .session = {1}, .className = "human", .attributes = "{}"}};
+  later.tracks[0].states = {{at(3), {2}, somePose(3), std::nullopt, "{}"}};
+  store.commit(later);
+  store.close();
+
+  const auto tracks = MapView::open(path_).tracks();
+  ASSERT_EQ(tracks.size(), 1U);
+  EXPECT_EQ(tracks[0].id, base::TrackId{3});
+  EXPECT_EQ(tracks[0].session, base::SessionId{1});
+  EXPECT_EQ(tracks[0].className, "human");
+  EXPECT_EQ(tracks[0].attributes, "{}");
+  ASSERT_EQ(tracks[0].states.size(), 3U);
+  const auto& first = tracks[0].states[0];
+  EXPECT_EQ(first.time, at(1));
+  EXPECT_EQ(first.submap, base::SubMapId{1});
+  EXPECT_TRUE(first.T_submap_thing.isApprox(somePose(1), 1e-12));
+  ASSERT_TRUE(first.velocity_in_submap.has_value());
+  EXPECT_EQ(first.velocity_in_submap->y(), -1.0);
+  EXPECT_EQ(first.attributes, R"({"joints":[]})");
+  EXPECT_FALSE(tracks[0].states[1].velocity_in_submap.has_value());
+  EXPECT_EQ(tracks[0].states[2].time, at(3));
 }
 
 TEST_F(MapFile, KeepsSessionsAndFloors) {

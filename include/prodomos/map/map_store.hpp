@@ -31,6 +31,7 @@ struct MapChange {
   std::vector<Event> events;
   std::vector<std::pair<base::SubMapId, const MapLayer*>> layers;
   std::optional<Checkpoint> checkpoint;
+  std::vector<Track> tracks{};  ///< their states are added to those that are there; of one time, replaced
 };
 
 /// The map file: SQLite in WAL mode, documented in docs/map-file.md. One store writes at a time; any number of MapViews

@@ -58,6 +58,7 @@ class MapView {
 
   std::vector<TrajectoryPoint> trajectory() const;  ///< of all sessions, in the order of session and time
   std::vector<Event> events() const;
+  std::vector<Track> tracks() const;  ///< by id, with all their states
   /// For planners that keep up with a map that grows.
   MapChanges changesSince(std::int64_t revision) const;
 

@@ -57,6 +57,24 @@ struct Event {
   std::string payload;  ///< JSON object
 };
 
+/// Where something that moves was at one time.
+struct TrackState {
+  base::Time time{};
+  base::SubMapId submap;
+  geometry::Pose3 T_submap_thing = geometry::Pose3::Identity();
+  std::optional<Eigen::Vector3d> velocity_in_submap;  ///< m/s
+  std::string attributes = "{}";                      ///< JSON object, by class
+};
+
+/// One thing that moves, for as long as it was followed.
+struct Track {
+  base::TrackId id;
+  base::SessionId session;
+  std::string className;           ///< "human", "object_box"
+  std::string attributes = "{}";   ///< JSON object, by class
+  std::vector<TrackState> states;  ///< ascending in time
+};
+
 /// All running state at a sub-map's end, for `--resume`.
 struct Checkpoint {
   base::SessionId session;
