@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace prodomos::evaluation {
@@ -23,5 +24,11 @@ struct Statistics {
 
 /// All zero where there are no values.
 Statistics statisticsOf(std::vector<double> values);
+
+/// None where there is nothing to have a share of: a measure that cannot be taken.
+inline std::optional<double> shareOf(std::size_t part, std::size_t whole) {
+  if (whole == 0) return std::nullopt;
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
 
 }  // namespace prodomos::evaluation
