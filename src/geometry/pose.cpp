@@ -19,6 +19,10 @@ Pose2 operator*(const Pose2& T_a_b, const Pose2& T_b_c) {
           normalizeAngle(T_a_b.theta + T_b_c.theta)};
 }
 
+Eigen::Vector2d operator*(const Pose2& T_a_b, const Eigen::Vector2d& point_in_b) {
+  return Eigen::Rotation2Dd(T_a_b.theta) * point_in_b + Eigen::Vector2d(T_a_b.x, T_a_b.y);
+}
+
 Pose2 inverse(const Pose2& T_a_b) {
   const double c = std::cos(T_a_b.theta);
   const double s = std::sin(T_a_b.theta);

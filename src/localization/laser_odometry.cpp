@@ -50,10 +50,6 @@ geometry::Pose2 loadPose(base::ByteReader& in) {
   return pose;
 }
 
-Eigen::Vector2d operator*(const geometry::Pose2& T_a_b, const Eigen::Vector2d& point_in_b) {
-  return Eigen::Rotation2Dd(T_a_b.theta) * point_in_b + Eigen::Vector2d(T_a_b.x, T_a_b.y);
-}
-
 }  // namespace
 
 void describe(base::ConfigVisitor& visitor, LaserOdometryConfig& config) {

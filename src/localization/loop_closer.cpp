@@ -22,10 +22,6 @@ constexpr double kAlikeReach = 1.5;  // metres
 constexpr double kAlikeTurn = 0.2;   // radians
 constexpr double kMostRadius = 15.0;
 
-Eigen::Vector2d operator*(const geometry::Pose2& T_a_b, const Eigen::Vector2d& point_in_b) {
-  return Eigen::Rotation2Dd(T_a_b.theta) * point_in_b + Eigen::Vector2d(T_a_b.x, T_a_b.y);
-}
-
 template <typename Candidates>
 void keepBest(Candidates& candidates, int count) {
   std::ranges::stable_sort(candidates, std::ranges::less{}, [](const auto& candidate) { return candidate.rank; });

@@ -9,7 +9,6 @@
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -46,27 +45,16 @@ std::size_t countOf(base::ByteReader& in) {
   return static_cast<std::size_t>(count);
 }
 
-/// x, y and yaw of six.
-constexpr std::array<int, 3> kPlanar = {0, 1, 5};
-
 map::Matrix6 lifted(const Eigen::Matrix3d& information) {
   map::Matrix6 six = map::Matrix6::Zero();
   six(2, 2) = 1.0 / (kFloorSigma * kFloorSigma);
   six(3, 3) = six(4, 4) = 1.0 / (kUprightSigma * kUprightSigma);
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column)
-      six(kPlanar[static_cast<std::size_t>(row)], kPlanar[static_cast<std::size_t>(column)]) = information(row, column);
-  }
+  six(geometry::kPlanarAxes, geometry::kPlanarAxes) = information;
   return six;
 }
 
 Eigen::Matrix3d planarPart(const map::Matrix6& six) {
-  Eigen::Matrix3d three;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column)
-      three(row, column) = six(kPlanar[static_cast<std::size_t>(row)], kPlanar[static_cast<std::size_t>(column)]);
-  }
-  return three;
+  return six(geometry::kPlanarAxes, geometry::kPlanarAxes);
 }
 
 /// Rather than travelled.

@@ -21,11 +21,7 @@ constexpr double kLeastSigma = 1e-3;  // metres, radians, after a metre; nothing
 /// Of a motion in the plane: up, roll and pitch are as good as known.
 map::Matrix6 lifted(const Eigen::Matrix3d& planar, double way) {
   map::Matrix6 covariance = map::Matrix6::Identity() * (kLeastSigma * kLeastSigma * way);
-  constexpr std::array<Eigen::Index, 3> kAxes = {0, 1, 5};
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t column = 0; column < 3; ++column)
-      covariance(kAxes[row], kAxes[column]) += planar(static_cast<int>(row), static_cast<int>(column));
-  }
+  covariance(geometry::kPlanarAxes, geometry::kPlanarAxes) += planar;
   return covariance;
 }
 

@@ -36,6 +36,13 @@ TEST(Pose, InThePlaneComposesLikeInSpace) {
   }
 }
 
+TEST(Pose, InThePlaneMapsPointsLikeInSpace) {
+  const Pose2 pose{1.0, -2.0, 2.5};
+  const Eigen::Vector2d point(0.3, 0.7);
+  const Eigen::Vector3d inSpace = toPose3(pose) * Eigen::Vector3d(0.3, 0.7, 0.0);
+  EXPECT_LT((pose * point - inSpace.head<2>()).norm(), 1e-12);
+}
+
 TEST(Pose, YawPitchRollTurnsInThisOrder) {
   const Pose3 pose = fromYawPitchRoll({1, 2, 3}, kPi / 2, 0.2, 0.0);
   EXPECT_NEAR(yaw(pose), kPi / 2, 1e-12);

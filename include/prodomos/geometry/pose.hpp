@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include <array>
+
 namespace prodomos::geometry {
 
 /// A rigid transform or pose in 3D. Named `T_a_b`: maps b-coordinates (metres) into a, p_a = T_a_b * p_b.
@@ -22,6 +24,7 @@ struct Pose2 {
 double normalizeAngle(double radians);
 
 Pose2 operator*(const Pose2& T_a_b, const Pose2& T_b_c);
+Eigen::Vector2d operator*(const Pose2& T_a_b, const Eigen::Vector2d& point_in_b);
 Pose2 inverse(const Pose2& T_a_b);
 
 /// The plane's pose at height z.
@@ -49,6 +52,9 @@ double rotationAngle(const Pose3& pose);
 /// Maps small motions (metres, then a rotation vector in radians) in the axes of b into those of a; of covariances:
 /// adjoint * covariance * adjoint^T.
 Eigen::Matrix<double, 6, 6> adjoint(const Pose3& T_a_b);
+
+/// Rows and columns of x, y and yaw in a 6x6 of (translation, rotation vector).
+inline constexpr std::array<int, 3> kPlanarAxes = {0, 1, 5};
 
 bool isFinite(const Pose3& pose);
 
