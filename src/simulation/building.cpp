@@ -73,6 +73,12 @@ map::DoorState stateOf(double openingAngle) {
   return openingAngle < kOpen ? map::DoorState::kAjar : map::DoorState::kOpen;
 }
 
+bool isLiftDoor(const Building& building, const Door& door) {
+  return std::ranges::any_of(door.rooms, [&](int room) {
+    return room != kOutside && building.rooms[static_cast<std::size_t>(room)].use == RoomUse::kLift;
+  });
+}
+
 Eigen::Vector3d headOf(const Staircase& stairs) {
   // The last riser ends on the upper floor: there is one tread less than there are risers.
   const double run = (stairs.stepCount - 1) * stairs.stepDepth;

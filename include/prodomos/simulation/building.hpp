@@ -79,6 +79,13 @@ struct Staircase {
   int stepCount = 17;  ///< risers; its head is stepCount * stepHeight above the foot
 };
 
+/// A platform between two flights that go up to one storey.
+struct Landing {
+  int lowerStorey = 0;
+  Polygon outline;
+  double z = 0.0;  ///< of its top
+};
+
 /// Where a robot is carried from floor to floor.
 struct Lift {
   std::string id;
@@ -128,6 +135,7 @@ struct Building {
   std::vector<Room> rooms;
   std::vector<Door> doors;
   std::vector<Staircase> stairs;
+  std::vector<Landing> landings;
   std::vector<Lift> lifts;
   std::vector<Thing> things;
   std::vector<Person> people;
@@ -147,6 +155,9 @@ std::uint16_t personInstance(const Building& building, std::size_t person);
 /// Of all leaves of the door, radians.
 double openingAngle(const Door& door, double time);
 map::DoorState stateOf(double openingAngle);  ///< closed below 5°, ajar below 60°, else open
+
+/// Whether one of its rooms is a lift's cabin: such a door is shut, and is no door to a detector of doors.
+bool isLiftDoor(const Building& building, const Door& door);
 
 Eigen::Vector3d headOf(const Staircase& stairs);
 
