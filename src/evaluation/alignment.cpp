@@ -3,6 +3,7 @@
 #include "prodomos/evaluation/alignment.hpp"
 
 #include "prodomos/base/error.hpp"
+#include "prodomos/evaluation/relations.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,9 +59,9 @@ std::string spanOf(const std::vector<TimedPose>& poses) {
 }  // namespace
 
 std::optional<geometry::Pose3> poseAt(const std::vector<TimedPose>& poses, base::Time time) {
-  const auto after = std::ranges::lower_bound(poses, time, {}, &TimedPose::time);
+  const auto after = std::ranges::lower_bound(poses, time - kStampTolerance, {}, &TimedPose::time);
   if (after == poses.end()) return std::nullopt;
-  if (after->time == time) return after->pose;
+  if (after->time - time <= kStampTolerance) return after->pose;
   if (after == poses.begin()) return std::nullopt;
   const auto& before = *std::prev(after);
   const base::Duration gap = after->time - before.time;

@@ -9,16 +9,16 @@
 
 #include <Eigen/Core>
 
-#include <memory>
 #include <optional>
+#include <vector>
 
 /// What moving things leave behind in a map: cells and voxels that are occupied where, when all was over, nothing
 /// stood (000 §IV-A, table I). docs/evaluation.md defines every measure.
 namespace prodomos::evaluation {
 
-/// What truth has at a spot.
+/// What truth has at a spot; where there are several, the first of these.
 enum class Matter {
-  kStructure,   ///< walls, furniture, stairs, leaves where they ended; within the tolerance of them; outside of rooms
+  kStructure,   ///< walls, furniture, stairs, leaves where they ended; outside of rooms; within the tolerance of these
   kLastPerson,  ///< a person where it was last: no noise, by 000
   kPerson,      ///< free at the end; a person was there before
   kMovedThing,  ///< free at the end; a thing was there before
@@ -29,31 +29,30 @@ enum class Matter {
 /// Free and occupied space of a building at the end of its log.
 class TrueSpace {
  public:
-  /// Metres by which shapes are grown: errors of map and sensor make no noise.
-  explicit TrueSpace(const Truth& truth, double tolerance = 0.1);
+  /// Shapes are grown by so many metres: errors of map and sensor make no noise.
+  TrueSpace(const Truth& truth, double tolerance);
   ~TrueSpace();
   TrueSpace(const TrueSpace&) = delete;
   TrueSpace& operator=(const TrueSpace&) = delete;
 
-  /// Of a column of space over the spot: heights above the world's zero, metres; both alike: a point.
-  Matter at(int storey, const Eigen::Vector2d& spot, double lowest, double highest) const;
-  /// Inside a wall-less solid (furniture that stood still throughout, stairs) deeper than the tolerance.
-  bool isSolid(int storey, const Eigen::Vector2d& spot, double lowest, double highest) const;
+  /// What a column over the spot meets between two heights above the floor, metres; of a point both are alike.
+  Matter at(int storey, const Eigen::Vector2d& spot_in_world, double lowest, double highest) const;
 
  private:
-  struct Shapes;
-  std::unique_ptr<Shapes> shapes_;
+  class Storey;
+  std::vector<Storey> storeys_;
 };
 
 struct NoiseCounts {
   std::size_t occupied = 0;     ///< all that the map holds for occupied
-  std::size_t lastPersons = 0;  ///< on persons where they were last
-  std::size_t persons = 0;      ///< noise by its causes
+  std::size_t lastPersons = 0;  ///< of it, on persons where they were last
+  std::size_t persons = 0;      ///< of it, noise by what has left it
   std::size_t movedThings = 0;
   std::size_t doorLeaves = 0;
-  std::size_t others = 0;
+  std::size_t others = 0;  ///< where nothing ever was: errors of sensor and poses
 
-  std::size_t noise() const { return persons + movedThings + doorLeaves + others; }
+  /// Of all that moves: the figures of 000's table I.
+  std::size_t noise() const { return persons + movedThings + doorLeaves; }
   void add(Matter matter);
   NoiseCounts& operator+=(const NoiseCounts& other);
 };
@@ -63,17 +62,17 @@ struct NoiseOptions {
 };
 
 struct NoiseScore {
-  bool hasPersons = false;  ///< in the truth; without them there is nothing to be measured
+  bool hasPersons = false;  ///< in the truth; without them theirs cannot be measured
   bool hasMovedThings = false;
   bool hasTurnedLeaves = false;
   std::optional<NoiseCounts> cells;   ///< of the occupancy grids; none where the map has none
-  std::size_t freeFloorKnown = 0;     ///< cells of free floor that the map knows: what noise is a share of
-  std::size_t solidKnown = 0;         ///< cells of solids that the map knows
-  std::size_t solidErased = 0;        ///< of them, those it holds for free
-  std::optional<NoiseCounts> points;  ///< of the point layers
+  std::size_t freeFloor = 0;          ///< known cells where in the end nothing stands: what noise is a share of
+  std::size_t walls = 0;              ///< stretches of wall, a cell long, that the map shows free floor before
+  std::size_t wallsKept = 0;          ///< of them, those that the map has; who filters all has no noise and no walls
+  std::optional<NoiseCounts> points;  ///< of the point layers, one a voxel
 
   std::optional<double> noiseShare() const;
-  std::optional<double> erasedShare() const { return shareOf(solidErased, solidKnown); }
+  std::optional<double> wallsKeptShare() const { return shareOf(wallsKept, walls); }
   /// For scores over several maps.
   NoiseScore& operator+=(const NoiseScore& other);
 };
