@@ -68,6 +68,7 @@ void describe(auto& key, Is<TrueDoor> auto& door) {
   key("width", door.width);
   key("height", door.height);
   key("wall_thickness", door.wallThickness);
+  key("leaf_offset", door.leafOffset);
   key("leaves", door.leaves);
   key("hinge_side", door.hingeSide);
   key("states", door.states);

@@ -47,6 +47,7 @@ Truth everything() {
                   .width = 0.9,
                   .height = 2.05,
                   .wallThickness = 0.2,
+                  .leafOffset = -0.08,
                   .leaves = 1,
                   .hingeSide = map::HingeSide::kRight,
                   .states = {{at(0), 0.0, map::DoorState::kClosed}, {at(2.5), 1.2, map::DoorState::kOpen}},
@@ -119,6 +120,7 @@ TEST_F(TruthFile, ComesBackAsItWasWritten) {
   const auto& door = read.doors.at(0);
   EXPECT_TRUE(door.T_world_door.isApprox(somePose(), 1e-12));
   EXPECT_EQ(door.rooms, truth.doors[0].rooms);
+  EXPECT_EQ(door.leafOffset, -0.08);
   EXPECT_EQ(door.hingeSide, map::HingeSide::kRight);
   EXPECT_EQ(door.states.at(1).state, map::DoorState::kOpen);
   EXPECT_EQ(door.states.at(1).time, at(2.5));

@@ -58,6 +58,7 @@ struct TrueDoor {
   double width = 0.0;
   double height = 0.0;
   double wallThickness = 0.0;
+  double leafOffset = 0.0;                              ///< of the closed leaf from the wall's middle, along the x-axis
   int leaves = 1;                                       ///< 0: a doorway
   map::HingeSide hingeSide = map::HingeSide::kUnknown;  ///< seen along the x-axis; unknown: none or two leaves
   std::vector<TrueDoorState> states;                    ///< at each change of state, the first at the log's begin
