@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "prodomos/evaluation/cells.hpp"
+#include "prodomos/evaluation/truth.hpp"
+#include "prodomos/map/map_view.hpp"
+#include "prodomos/map/occupancy_grid.hpp"
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace prodomos::evaluation {
+
+/// The grid of a sub-map, in the world.
+struct KnownGrid {
+  int storey = 0;
+  base::Time begin{};  ///< of its sub-map
+  geometry::Pose2 T_world_grid;
+  std::shared_ptr<const map::OccupancyGrid> grid;
+};
+
+/// Which cells of the world a map has observed, and since when: a map's grids tell the time of a cell to the sub-map,
+/// so a cell counts as known since the first sub-map that knows it began.
+class KnownSpace {
+ public:
+  KnownSpace() = default;
+  explicit KnownSpace(std::vector<KnownGrid> grids);
+
+  bool isKnown(int storey, geometry::CellIndex cell, base::Time at) const;
+  bool isKnown(int storey, geometry::CellIndex cell) const;  ///< ever
+  bool isFree(int storey, geometry::CellIndex cell) const;   ///< by all grids together, in the end
+  double freeArea() const;                                   ///< m², of all storeys
+
+ private:
+  struct Cell {
+    std::int32_t since = -1;    ///< index of the first grid that knows it
+    std::int32_t evidence = 0;  ///< sum of log-odds
+  };
+
+  void add(std::int32_t number, const KnownGrid& grid);
+
+  std::vector<base::Time> begins_;  ///< of the grids, ascending
+  std::map<int, CellMap<Cell>> cellsOfStorey_;
+};
+
+/// Of all observed sub-maps with a grid. Throws base::Error where map and truth have no time in common.
+KnownSpace knownSpaceOf(const map::MapView& view, const Truth& truth);
+
+}  // namespace prodomos::evaluation

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prodomos/evaluation/claims.hpp"
+
+#include "prodomos/evaluation/alignment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace prodomos::evaluation {
+
+namespace {
+
+using Frames = std::map<base::SubMapId, geometry::Pose3>;
+
+const map::Entity* findEntity(const map::MapView& view, base::EntityId id) {
+  const auto found = std::ranges::find(view.entities(), id, &map::Entity::id);
+  return found == view.entities().end() ? nullptr : &*found;
+}
+
+/// Metres that the flight covers on the ground; none where neither steps nor points tell.
+std::optional<double> runOf(const map::Entity& entity, const map::Staircase& stairs) {
+  if (stairs.stepHeight > 0.0 && stairs.stepDepth > 0.0 && std::isfinite(stairs.height)) {
+    return std::abs(stairs.height) * stairs.stepDepth / stairs.stepHeight;
+  }
+  if (entity.points_in_submap.empty()) return std::nullopt;
+  const Eigen::Vector3f uphill = entity.T_submap_entity.linear().col(0).cast<float>();
+  const auto [least, most] =
+      std::ranges::minmax(entity.points_in_submap, {}, [&uphill](const auto& point) { return uphill.dot(point); });
+  return uphill.dot(most - least);
+}
+
+ClaimedStaircase claimedStairs(const map::Entity& entity, const map::Staircase& stairs,
+                               const geometry::Pose3& T_world_submap, int storey) {
+  ClaimedStaircase claim{entity.id, storey, geometry::toPose2(T_world_submap * entity.T_submap_entity), stairs, {}};
+  if (const auto run = runOf(entity, stairs)) {
+    const auto foot = claim.T_world_stairs * geometry::Pose2{-*run / 2.0, 0.0, 0.0};
+    claim.foot = Eigen::Vector2d(foot.x, foot.y);
+  }
+  return claim;
+}
+
+std::optional<std::multimap<base::EntityId, base::Time>> detectionsOf(const map::MapView& view) {
+  std::multimap<base::EntityId, base::Time> images;
+  for (const auto& event : view.events()) {
+    if (event.kind != "detected") continue;
+    if (const auto entity = base::parseId<base::EntityId>(event.subject)) images.emplace(*entity, event.time);
+  }
+  if (images.empty()) return std::nullopt;
+  return images;
+}
+
+ClaimedSpace claimedSpace(const map::MapView& view, const map::Prediction& prediction, const Frames& T_world_node,
+                          const Truth& truth) {
+  ClaimedSpace claim{.id = prediction.id,
+                     .node = prediction.node,
+                     .cause = prediction.cause,
+                     .mobility = std::nullopt,
+                     .probability = prediction.probability,
+                     .made = prediction.made,
+                     .settled = prediction.settled,
+                     .state = prediction.state,
+                     .areas_in_world = {}};
+  if (const auto* cause = findEntity(view, prediction.cause)) claim.mobility = map::mobility(cause->attributes);
+  const auto frame = T_world_node.find(prediction.node);
+  if (frame == T_world_node.end()) return claim;
+  claim.storey = storeyAt(truth, frame->second.translation().z());
+  for (const auto& area : prediction.areas) {
+    claim.areas_in_world[area.threshold] = transformed(frame->second, area.outline_in_submap);
+  }
+  return claim;
+}
+
+/// The observed sub-map that a predicted one hangs on: where its cause was seen from, else its neighbour.
+std::optional<base::SubMapId> anchorOf(const map::MapView& view, base::SubMapId predicted, const Frames& observed) {
+  for (const auto& prediction : view.predictions()) {
+    if (prediction.node != predicted) continue;
+    const auto* cause = findEntity(view, prediction.cause);
+    if (cause != nullptr && observed.contains(cause->submap)) return cause->submap;
+  }
+  for (const auto neighbour : view.graph().neighbours(predicted)) {
+    if (observed.contains(neighbour)) return neighbour;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Frames truthFromNodes(const map::MapView& view, const Truth& truth) {
+  const auto observed = truthFromSubMaps(view, truth);
+  auto frames = observed;
+  const auto& graph = view.graph();
+  for (const auto id : graph.nodes()) {
+    if (observed.contains(id)) continue;
+    const auto anchor = anchorOf(view, id, observed);
+    const auto T_world_map = anchor ? observed.at(*anchor) * graph.getNode(*anchor).T_map_submap.inverse()
+                                    : truthFromMap(bodyPoses(view.trajectory(), Poses::kRefined), truth);
+    frames[id] = T_world_map * graph.getNode(id).T_map_submap;
+  }
+  return frames;
+}
+
+Claims claimsOf(const map::MapView& view, const Truth& truth) {
+  const auto T_world_node = truthFromNodes(view, truth);
+  Claims claims;
+  for (const auto& entity : view.entities()) {
+    const auto frame = T_world_node.find(entity.submap);
+    if (frame == T_world_node.end()) continue;
+    const int storey = storeyAt(truth, frame->second.translation().z());
+    if (const auto* door = std::get_if<map::Door>(&entity.attributes)) {
+      claims.doors.push_back({entity.id, storey, geometry::toPose2(frame->second * entity.T_submap_entity), *door,
+                              entity.firstSeen, entity.lastSeen});
+    } else if (const auto* stairs = std::get_if<map::Staircase>(&entity.attributes)) {
+      claims.stairs.push_back(claimedStairs(entity, *stairs, frame->second, storey));
+    }
+  }
+  for (const auto& prediction : view.predictions()) {
+    claims.spaces.push_back(claimedSpace(view, prediction, T_world_node, truth));
+  }
+  claims.images = detectionsOf(view);
+  return claims;
+}
+
+}  // namespace prodomos::evaluation
