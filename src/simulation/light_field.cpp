@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <utility>
 
 namespace prodomos::simulation {
 namespace {
@@ -24,7 +24,7 @@ constexpr float kLeastLight = 0.004F;  // what a lamp adds below this casts no s
 constexpr float kLift = 0.004F;        // of a ray's start off its surface, metres
 constexpr float kLampSize = 0.2F;      // around a lamp, metres: its own housing throws no shadow
 constexpr float kClose = 0.7F;         // metres: what stands nearer takes ambient light away
-constexpr int kAmbientRays = 4;        // of each sample; four neighbours have other directions
+constexpr int kAmbientRays = 4;        // of each sample; four neighbours have other ones and are then smoothed
 
 /// Of a lamp that shines downwards, at a point in direction `to_lamp` (unit): 1 is two metres below it.
 float brightness(const Vector3f& toLamp, float distance) {
@@ -53,6 +53,29 @@ Eigen::Matrix3f frameOf(const Vector3f& normal) {
   return axes;
 }
 
+/// How far two points belong to one surface; never 0, so that a point without its like takes what there is.
+float likeness(const Vector3f& point, const Vector3f& normal, const Vector3f& other, const Vector3f& otherNormal) {
+  const float aside = (point - other).dot(otherNormal);
+  const float alike = std::max(0.0F, normal.dot(otherNormal));
+  return 1e-4F + alike * alike * alike / (1.0F + 2500.0F * aside * aside);
+}
+
+/// Weighted.
+class Mean {
+ public:
+  void add(const Light& light, float weight) {
+    lamps_ += weight * light.lamps;
+    openness_ += weight * light.openness;
+    weights_ += weight;
+  }
+  Light light() const { return {.lamps = lamps_ / weights_, .openness = openness_ / weights_}; }
+
+ private:
+  Vector3f lamps_ = Vector3f::Zero();
+  float openness_ = 0.0F;
+  float weights_ = 0.0F;
+};
+
 }  // namespace
 
 LightField::LightField(const RayScene& scene, const std::vector<Eigen::Vector3d>& lamps, int width, int height,
@@ -75,6 +98,9 @@ LightField::LightField(const RayScene& scene, const std::vector<Eigen::Vector3d>
     lightRow(scene, near, row);
     closeRow(scene, row);
   });
+  std::vector<Sample> smoothed = samples_;
+  forRows(rows_, threads, [&](int row) { smoothRow(row, smoothed); });
+  samples_ = std::move(smoothed);
 }
 
 std::vector<Vector3f> LightField::lampsInReach(const std::vector<Eigen::Vector3d>& lamps) const {
@@ -136,31 +162,37 @@ void LightField::closeRow(const RayScene& scene, int row) {
   }
 }
 
+void LightField::smoothRow(int row, std::vector<Sample>& smoothed) const {
+  constexpr std::array<float, 3> kWeights{0.25F, 0.5F, 0.25F};
+  for (int column = 0; column < columns_; ++column) {
+    const Sample& middle = sample(column, row);
+    Mean mean;
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const Sample& near = sample(std::clamp(column + dx, 0, columns_ - 1), std::clamp(row + dy, 0, rows_ - 1));
+        const float weight = kWeights[static_cast<std::size_t>(dx + 1)] * kWeights[static_cast<std::size_t>(dy + 1)];
+        mean.add(near.light, weight * likeness(near.point, near.normal, middle.point, middle.normal));
+      }
+    }
+    smoothed[static_cast<std::size_t>(row * columns_ + column)].light = mean.light();
+  }
+}
+
 Light LightField::at(float x, float y, const Vector3f& point, const Vector3f& normal) const {
   const float column = (x - kStep / 2.0F) / kStep;
   const float row = (y - kStep / 2.0F) / kStep;
   const auto column0 = static_cast<int>(std::floor(column));
   const auto row0 = static_cast<int>(std::floor(row));
-  Light light{.lamps = Vector3f::Zero(), .openness = 0.0F};
-  float total = 0.0F;
+  Mean mean;
   for (const int dy : {0, 1}) {
     for (const int dx : {0, 1}) {
       const Sample& near = sample(std::clamp(column0 + dx, 0, columns_ - 1), std::clamp(row0 + dy, 0, rows_ - 1));
       const float alongX = 1.0F - std::abs(column - static_cast<float>(column0 + dx));
       const float alongY = 1.0F - std::abs(row - static_cast<float>(row0 + dy));
-      // Samples of another surface count only where there is no other.
-      const float aside = (near.point - point).dot(normal);
-      const float alike = std::max(0.0F, near.normal.dot(normal));
-      const float weight =
-          (0.01F + alongX * alongY) * (1e-4F + alike * alike * alike / (1.0F + 2500.0F * aside * aside));
-      light.lamps += weight * near.light.lamps;
-      light.openness += weight * near.light.openness;
-      total += weight;
+      mean.add(near.light, (0.01F + alongX * alongY) * likeness(near.point, near.normal, point, normal));
     }
   }
-  light.lamps /= total;
-  light.openness /= total;
-  return light;
+  return mean.light();
 }
 
 }  // namespace prodomos::simulation

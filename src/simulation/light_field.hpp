@@ -40,6 +40,7 @@ class LightField {
   std::vector<Eigen::Vector3f> lampsInReach(const std::vector<Eigen::Vector3d>& lamps) const;
   void lightRow(const RayScene& scene, const std::vector<Eigen::Vector3f>& lamps, int row);
   void closeRow(const RayScene& scene, int row);
+  void smoothRow(int row, std::vector<Sample>& smoothed) const;
   Sample& sample(int column, int row) { return samples_[static_cast<std::size_t>(row * columns_ + column)]; }
   const Sample& sample(int column, int row) const {
     return samples_[static_cast<std::size_t>(row * columns_ + column)];

@@ -204,7 +204,9 @@ Vector3f books(const Material& material, const PatternSample& at) {
   const float top = shelf * (0.62F + 0.3F * chance(0, 1, seed));
   const float x = at.point.x() - static_cast<float>(slot) * kSlot;
   const Vector3f hue(chance(0, 2, seed), chance(0, 3, seed), chance(0, 4, seed));
-  const Vector3f cover = mix(linearColor(material.color), hue.cwiseProduct(hue), 0.75F);
+  const float shade = 0.1F + 0.5F * chance(0, 6, seed);
+  const Vector3f cloth = shade * mix(Vector3f::Constant(hue.mean()), hue, 0.7F);
+  const Vector3f cover = mix(linearColor(material.color), cloth, 0.85F);
   const float label = band(y, 0.7F * top, 0.8F * top, at.footprint) * (chance(0, 5, seed) < 0.6F ? 0.6F : 0.0F);
   const float share = band(y, 0.0F, top, at.footprint) * band(x, 0.002F, kSlot, at.footprint);
   return mix(linearColor(material.accent) * 0.15F, mix(cover, Vector3f::Constant(0.8F), label), share);
