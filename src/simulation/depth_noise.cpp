@@ -80,8 +80,9 @@ class Warp {
     const int row = y / kStep;
     const float tx = static_cast<float>(x % kStep) / kStep;
     const float ty = static_cast<float>(y % kStep) / kStep;
-    return std::lerp(std::lerp(at(column, row), at(column + 1, row), tx),
-                     std::lerp(at(column, row + 1), at(column + 1, row + 1), tx), ty);
+    const float upper = at(column, row) + tx * (at(column + 1, row) - at(column, row));
+    const float lower = at(column, row + 1) + tx * (at(column + 1, row + 1) - at(column, row + 1));
+    return upper + ty * (lower - upper);
   }
 
  private:
@@ -108,7 +109,15 @@ class Measurement {
         jitter_(seed),
         disparityNoise_(sharedNoise(width(), height(), noise.window, PixelNoise(seed + 1), threads)),
         lossNoise_(sharedNoise(width(), height(), noise.window, PixelNoise(seed + 2), threads)),
-        warp_(width(), height(), noise) {}
+        warp_(width(), height(), noise),
+        disparities_(width(), height()) {
+    forRows(height(), threads, [&](int y) {
+      for (int x = 0; x < width(); ++x) {
+        const float z = seen_.depth(x, y);
+        disparities_(x, y) = z > 0.0F ? stepsMetres_ / z : 0.0F;
+      }
+    });
+  }
 
   int width() const { return seen_.depth.width(); }
   int height() const { return seen_.depth.height(); }
@@ -126,11 +135,7 @@ class Measurement {
     int y = 0;
   };
 
-  /// Disparity in steps; 0 where nothing is.
-  float disparity(int x, int y) const {
-    const float z = near(seen_.depth, x, y);
-    return z > 0.0F ? stepsMetres_ / z : 0.0F;
-  }
+  float disparity(int x, int y) const { return near(disparities_, x, y); }
 
   /// Those that the projector, on the camera's right, does not reach: on its picture they would lie behind one farther
   /// right. One pixel of tolerance keeps flat surfaces whole.
@@ -154,7 +159,7 @@ class Measurement {
     const auto offset = [&](std::uint64_t part) {
       // Sum of two bytes: a triangle of σ 104.5.
       const auto sum = static_cast<double>((part & 0xffU) + ((part >> 8) & 0xffU)) - 255.0;
-      return static_cast<int>(std::lround(noise_.lateralSigma * sum / 104.5));
+      return static_cast<int>(std::floor(noise_.lateralSigma * sum / 104.5 + 0.5));
     };
     return {std::clamp(x + offset(bits), 0, width() - 1), std::clamp(y + offset(bits >> 16), 0, height() - 1)};
   }
@@ -186,9 +191,10 @@ class Measurement {
   bool isLost(const Pixel& at, float luck) const {
     const float z = seen_.depth(at.x, at.y);
     const float signal = seen_.infrared(at.x, at.y) / (z * z);
-    return signal < static_cast<float>(noise_.leastSignal) * std::exp(0.4F * luck) ||
+    const float strictness = std::max(0.1F, 1.0F + 0.3F * luck);
+    return signal < static_cast<float>(noise_.leastSignal) * strictness ||
            signal > static_cast<float>(noise_.mostSignal) ||
-           seen_.cosine(at.x, at.y) < static_cast<float>(noise_.leastCosine) * (1.0F + 0.3F * luck);
+           seen_.cosine(at.x, at.y) < static_cast<float>(noise_.leastCosine) * strictness;
   }
 
   float measured(int x, int y) const {
@@ -196,11 +202,11 @@ class Measurement {
     const float exact = disparity(at.x, at.y);
     if (exact <= 0.0F || isLost(at, lossNoise_(x, y))) return 0.0F;
     const float error = static_cast<float>(noise_.disparitySigma) * disparityNoise_(x, y) + warp_(x, y);
-    const float step = std::round(exact + error);
+    const float step = std::floor(exact + error + 0.5F);
     if (step <= 0.0F) return 0.0F;
     const float z = stepsMetres_ / step;
     if (z < static_cast<float>(noise_.leastRange) || z > static_cast<float>(noise_.mostRange)) return 0.0F;
-    return std::round(z * 1000.0F) / 1000.0F;
+    return std::floor(z * 1000.0F + 0.5F) / 1000.0F;
   }
 
   const Rendering& seen_;
@@ -211,6 +217,7 @@ class Measurement {
   Image<float> disparityNoise_;
   Image<float> lossNoise_;
   Warp warp_;
+  Image<float> disparities_;  ///< exact ones, in steps; 0 where nothing is
 };
 
 }  // namespace

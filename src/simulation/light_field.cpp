@@ -28,7 +28,8 @@ constexpr int kAmbientRays = 4;        // of each sample; four neighbours have o
 
 /// Of a lamp that shines downwards, at a point in direction `to_lamp` (unit): 1 is two metres below it.
 float brightness(const Vector3f& toLamp, float distance) {
-  const float window = 1.0F - std::pow(distance / kReach, 4.0F);
+  const float share = distance * distance / (kReach * kReach);
+  const float window = 1.0F - share * share;
   if (window <= 0.0F) return 0.0F;
   const float lobe = 0.3F + 0.7F * std::max(0.0F, toLamp.z());
   return 4.6F * lobe * window * window / (0.6F + distance * distance);
@@ -54,9 +55,9 @@ Eigen::Matrix3f frameOf(const Vector3f& normal) {
 }
 
 /// How far two points belong to one surface; never 0, so that a point without its like takes what there is.
-float likeness(const Vector3f& point, const Vector3f& normal, const Vector3f& other, const Vector3f& otherNormal) {
-  const float aside = (point - other).dot(otherNormal);
-  const float alike = std::max(0.0F, normal.dot(otherNormal));
+float likeness(const LitPoint& a, const LitPoint& b) {
+  const float aside = (a.point - b.point).dot(b.normal);
+  const float alike = std::max(0.0F, a.normal.dot(b.normal));
   return 1e-4F + alike * alike * alike / (1.0F + 2500.0F * aside * aside);
 }
 
@@ -79,7 +80,7 @@ class Mean {
 }  // namespace
 
 LightField::LightField(const RayScene& scene, const std::vector<Eigen::Vector3d>& lamps, int width, int height,
-                       const std::vector<Ray>& rays, const std::vector<Hit>& hits, int threads)
+                       const std::function<std::optional<LitPoint>(int, int)>& seenAt, int threads)
     : columns_((width + kStep - 1) / kStep),
       rows_((height + kStep - 1) / kStep),
       samples_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
@@ -87,10 +88,7 @@ LightField::LightField(const RayScene& scene, const std::vector<Eigen::Vector3d>
     for (int column = 0; column < columns_; ++column) {
       const int x = std::min(column * kStep + kStep / 2, width - 1);
       const int y = std::min(row * kStep + kStep / 2, height - 1);
-      const auto pixel = static_cast<std::size_t>(y * width + x);
-      if (!hits[pixel]) continue;
-      sample(column, row).point = rays[pixel].origin + hits[pixel].distance * rays[pixel].direction;
-      sample(column, row).normal = hits[pixel].normal;
+      if (const auto place = seenAt(x, y)) sample(column, row) = {.place = *place, .isEmpty = false};
     }
   }
   const std::vector<Vector3f> near = lampsInReach(lamps);
@@ -106,7 +104,7 @@ LightField::LightField(const RayScene& scene, const std::vector<Eigen::Vector3d>
 std::vector<Vector3f> LightField::lampsInReach(const std::vector<Eigen::Vector3d>& lamps) const {
   Eigen::AlignedBox3f seen;
   for (const Sample& sample : samples_) {
-    if (!sample.normal.isZero()) seen.extend(sample.point);
+    if (!sample.isEmpty) seen.extend(sample.place.point);
   }
   std::vector<Vector3f> near;
   for (const auto& lamp : lamps) {
@@ -125,7 +123,8 @@ void LightField::lightRow(const RayScene& scene, const std::vector<Vector3f>& la
     columns.clear();
     light.clear();
     for (int column = 0; column < columns_; ++column) {
-      const Sample& at = sample(column, row);
+      if (sample(column, row).isEmpty) continue;
+      const LitPoint& at = sample(column, row).place;
       const Vector3f way = lamp - at.point;
       if (way.squaredNorm() > kReach * kReach || at.normal.dot(way) <= 0.0F) continue;
       const float distance = way.norm();
@@ -146,19 +145,22 @@ void LightField::lightRow(const RayScene& scene, const std::vector<Vector3f>& la
 void LightField::closeRow(const RayScene& scene, int row) {
   std::vector<Ray> rays;
   for (int column = 0; column < columns_; ++column) {
-    const Sample& at = sample(column, row);
+    if (sample(column, row).isEmpty) continue;
+    const LitPoint& at = sample(column, row).place;
     const float turn = static_cast<float>(2 * (row % 2) + column % 2) / 16.0F;
-    const Eigen::Matrix3f axes = frameOf(at.normal.isZero() ? Vector3f(Vector3f::UnitZ()) : at.normal);
+    const Eigen::Matrix3f axes = frameOf(at.normal);
     for (const Vector3f& direction : ambientDirections(turn)) {
-      rays.push_back({at.point + kLift * at.normal, axes * direction, at.normal.isZero() ? 0.0F : kClose});
+      rays.push_back({at.point + kLift * at.normal, axes * direction, kClose});
     }
   }
   std::vector<std::uint8_t> closed(rays.size());
   scene.areOccluded(rays, closed, RayOrder::kAny);
+  auto first = closed.begin();
   for (int column = 0; column < columns_; ++column) {
-    const auto first = closed.begin() + column * kAmbientRays;
-    const auto count = std::count(first, first + kAmbientRays, std::uint8_t{0});
-    sample(column, row).light.openness = static_cast<float>(count) / kAmbientRays;
+    if (sample(column, row).isEmpty) continue;
+    const auto open = std::count(first, first + kAmbientRays, std::uint8_t{0});
+    sample(column, row).light.openness = static_cast<float>(open) / kAmbientRays;
+    first += kAmbientRays;
   }
 }
 
@@ -171,14 +173,14 @@ void LightField::smoothRow(int row, std::vector<Sample>& smoothed) const {
       for (int dx = -1; dx <= 1; ++dx) {
         const Sample& near = sample(std::clamp(column + dx, 0, columns_ - 1), std::clamp(row + dy, 0, rows_ - 1));
         const float weight = kWeights[static_cast<std::size_t>(dx + 1)] * kWeights[static_cast<std::size_t>(dy + 1)];
-        mean.add(near.light, weight * likeness(near.point, near.normal, middle.point, middle.normal));
+        mean.add(near.light, weight * likeness(near.place, middle.place));
       }
     }
     smoothed[static_cast<std::size_t>(row * columns_ + column)].light = mean.light();
   }
 }
 
-Light LightField::at(float x, float y, const Vector3f& point, const Vector3f& normal) const {
+Light LightField::at(float x, float y, const LitPoint& place) const {
   const float column = (x - kStep / 2.0F) / kStep;
   const float row = (y - kStep / 2.0F) / kStep;
   const auto column0 = static_cast<int>(std::floor(column));
@@ -189,7 +191,7 @@ Light LightField::at(float x, float y, const Vector3f& point, const Vector3f& no
       const Sample& near = sample(std::clamp(column0 + dx, 0, columns_ - 1), std::clamp(row0 + dy, 0, rows_ - 1));
       const float alongX = 1.0F - std::abs(column - static_cast<float>(column0 + dx));
       const float alongY = 1.0F - std::abs(row - static_cast<float>(row0 + dy));
-      mean.add(near.light, (0.01F + alongX * alongY) * likeness(near.point, near.normal, point, normal));
+      mean.add(near.light, (0.01F + alongX * alongY) * likeness(near.place, place));
     }
   }
   return mean.light();

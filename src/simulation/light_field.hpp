@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 namespace prodomos::simulation {
@@ -19,21 +21,27 @@ struct Light {
   float openness = 1.0F;  ///< share of the directions in which nothing stands close
 };
 
+/// A point of a surface.
+struct LitPoint {
+  Eigen::Vector3f point = Eigen::Vector3f::Zero();
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit
+};
+
 /// The light in a picture, taken at every fourth pixel and read in between from the samples on the same surface. Lamps
 /// are large, so their shadows are soft anyway, and all lamps near by can throw one at a fraction of the rays.
 class LightField {
  public:
-  /// `hits` is the picture row by row, `rays` what was cast.
+  /// `seenAt(x, y)` tells what a pixel shows, if anything.
   LightField(const RayScene& scene, const std::vector<Eigen::Vector3d>& lamps, int width, int height,
-             const std::vector<Ray>& rays, const std::vector<Hit>& hits, int threads);
+             const std::function<std::optional<LitPoint>(int, int)>& seenAt, int threads);
 
-  /// At a surface point that pixel (x, y) or a part of it shows.
-  Light at(float x, float y, const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const;
+  /// At a point that pixel (x, y) or a part of it shows.
+  Light at(float x, float y, const LitPoint& place) const;
 
  private:
   struct Sample {
-    Eigen::Vector3f point = Eigen::Vector3f::Zero();
-    Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< zero: nothing is there
+    LitPoint place;
+    bool isEmpty = true;
     Light light;
   };
 

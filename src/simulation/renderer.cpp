@@ -12,7 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <span>
+#include <optional>
 #include <utility>
 
 namespace prodomos::simulation {
@@ -64,6 +64,11 @@ bool areApart(const Hit& a, const Hit& b) {
   return a.normal.dot(b.normal) < 0.9F || std::abs(a.distance - b.distance) > 0.1F * std::min(a.distance, b.distance);
 }
 
+/// Of a projector beside the camera, mirrored straight back.
+float glare(float gloss, float cosine) {
+  return gloss > 0.0F && cosine > 0.97F ? 30.0F * gloss * std::pow(cosine, 400.0F) : 0.0F;
+}
+
 /// Bright light is compressed rather than cut off.
 float shoulder(float value) {
   constexpr float kKnee = 0.7F;
@@ -94,11 +99,10 @@ class Renderer::Impl {
   Rendering render(const geometry::Pose3& T_world_camera, int threads) const {
     const int width = camera_.width;
     const int height = camera_.height;
-    View view{.T_world_camera = T_world_camera.cast<float>(),
-              .rays = std::vector<Ray>(directions_.size()),
-              .hits = std::vector<Hit>(directions_.size())};
+    View view{.T_world_camera = T_world_camera.cast<float>(), .hits = std::vector<Hit>(directions_.size())};
     forRows((height + kBlock - 1) / kBlock, threads, [&](int block) { castBlock(block, view); });
-    const LightField light(scene_, lighting_.lamps, width, height, view.rays, view.hits, threads);
+    const LightField light(
+        scene_, lighting_.lamps, width, height, [&](int x, int y) { return seenAt(view, x, y); }, threads);
     Rendering result = blank();
     Image<Vector3f> radiance(width, height, Vector3f::Zero());
     forRows(height, threads, [&](int y) {
@@ -116,9 +120,20 @@ class Renderer::Impl {
 
   struct View {
     Eigen::Isometry3f T_world_camera;
-    std::vector<Ray> rays;
-    std::vector<Hit> hits;
+    std::vector<Hit> hits;  ///< row by row
   };
+
+  Ray rayThrough(const View& view, int x, int y) const {
+    return {.origin = view.T_world_camera.translation(),
+            .direction = view.T_world_camera.linear() * directions_[index(x, y)]};
+  }
+
+  std::optional<LitPoint> seenAt(const View& view, int x, int y) const {
+    const Hit& hit = view.hits[index(x, y)];
+    if (!hit) return std::nullopt;
+    const Ray ray = rayThrough(view, x, y);
+    return LitPoint{ray.origin + hit.distance * ray.direction, hit.normal};
+  }
 
   std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * camera_.width + x); }
 
@@ -140,17 +155,13 @@ class Renderer::Impl {
       for (int y = block * kBlock; y < std::min((block + 1) * kBlock, camera_.height); ++y) {
         for (int x = x0; x < std::min(x0 + kBlock, camera_.width); ++x) {
           pixels.push_back(index(x, y));
-          rays.push_back({.origin = view.T_world_camera.translation(),
-                          .direction = view.T_world_camera.linear() * directions_[pixels.back()]});
+          rays.push_back(rayThrough(view, x, y));
         }
       }
     }
     std::vector<Hit> hits(rays.size());
     scene_.cast(rays, hits);
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      view.rays[pixels[i]] = rays[i];
-      view.hits[pixels[i]] = hits[i];
-    }
+    for (std::size_t i = 0; i < pixels.size(); ++i) view.hits[pixels[i]] = hits[i];
   }
 
   void writeRow(const View& view, int y, Rendering& result) const {
@@ -158,21 +169,20 @@ class Renderer::Impl {
       const Hit& hit = view.hits[index(x, y)];
       if (!hit) continue;
       const Material& material = hit.surface->material;
-      const float cosine = -hit.normal.dot(view.rays[index(x, y)].direction.normalized());
+      const float cosine = -hit.normal.dot(rayThrough(view, x, y).direction.normalized());
       result.depth(x, y) = hit.distance;  // since directions have z = 1
       result.classes(x, y) = hit.surface->classId;
       result.instances(x, y) = hit.surface->instance;
       result.cosine(x, y) = cosine;
-      const float mirrored = material.gloss * std::pow(std::max(0.0F, cosine), 400.0F);
-      result.infrared(x, y) = material.infrared * (cosine + 30.0F * mirrored);
+      result.infrared(x, y) = material.infrared * (cosine + glare(material.gloss, cosine));
     }
   }
 
   void shadeRow(const View& view, const LightField& light, int y, Image<Vector3f>& radiance) const {
     std::vector<int> edges;
     for (int x = 0; x < camera_.width; ++x) {
-      const std::size_t i = index(x, y);
-      radiance(x, y) = shade(view.rays[i], view.hits[i], static_cast<float>(x), static_cast<float>(y), light);
+      radiance(x, y) =
+          shade(rayThrough(view, x, y), view.hits[index(x, y)], static_cast<float>(x), static_cast<float>(y), light);
       if (isEdge(view, x, y)) edges.push_back(x);
     }
     smoothEdges(view, light, y, edges, radiance);
@@ -196,7 +206,7 @@ class Renderer::Impl {
       const Vector3f alongX = stepAt(view, x, y, 1, 0);
       const Vector3f alongY = stepAt(view, x, y, 0, 1);
       for (const auto& [dx, dy] : kOffsets) {
-        Ray ray = view.rays[index(x, y)];
+        Ray ray = rayThrough(view, x, y);
         ray.direction += dx * alongX + dy * alongY;
         rays.push_back(ray);
       }
@@ -220,7 +230,7 @@ class Renderer::Impl {
   Vector3f stepAt(const View& view, int x, int y, int dx, int dy) const {
     const int x0 = std::min(x, camera_.width - 1 - dx);
     const int y0 = std::min(y, camera_.height - 1 - dy);
-    return view.rays[index(x0 + dx, y0 + dy)].direction - view.rays[index(x0, y0)].direction;
+    return rayThrough(view, x0 + dx, y0 + dy).direction - rayThrough(view, x0, y0).direction;
   }
 
   /// The light that comes back along the ray, linear; 1 is white paper in good light.
@@ -234,7 +244,7 @@ class Renderer::Impl {
     if (material.pattern == Pattern::kSky) return kWindowGlow * albedo;
     if (hit.surface->classId == lampClass_) return kLampGlow * brightness * albedo.cwiseProduct(lighting_.tint);
 
-    const Light light = field.at(x, y, ray.origin + hit.distance * ray.direction, hit.normal);
+    const Light light = field.at(x, y, {ray.origin + hit.distance * ray.direction, hit.normal});
     const auto ambientShare = static_cast<float>(lighting_.ambient);
     // Ceilings see the lit floor; walls of a corner differ a little.
     const Vector3f& n = hit.normal;
@@ -247,7 +257,8 @@ class Renderer::Impl {
       const float strength = light.lamps.norm();
       const float along = strength > 0.0F ? std::max(0.0F, mirrored.dot(light.lamps) / strength) : 0.0F;
       const float highlight = 0.5F * lampShare * strength * std::pow(along, 40.0F);
-      const float sheen = 0.5F * ambientShare * (0.04F + 0.5F * std::pow(1.0F - cosine, 5.0F));
+      const float flat = (1.0F - cosine) * (1.0F - cosine);
+      const float sheen = 0.5F * ambientShare * (0.04F + 0.5F * flat * flat);
       result += Vector3f::Constant(material.gloss * (highlight + sheen));
     }
     return brightness * result.cwiseProduct(lighting_.tint);
