@@ -13,6 +13,8 @@ namespace {
 
 using Frames = std::map<base::SubMapId, geometry::Pose3>;
 
+constexpr double kSameStorey = 1.0;  // metres between its floor and what lies on it
+
 const map::Entity* findEntity(const map::MapView& view, base::EntityId id) {
   const auto found = std::ranges::find(view.entities(), id, &map::Entity::id);
   return found == view.entities().end() ? nullptr : &*found;
@@ -50,6 +52,13 @@ std::optional<std::multimap<base::EntityId, base::Time>> detectionsOf(const map:
   return images;
 }
 
+std::optional<int> modelledStorey(const Truth& truth, double z) {
+  const int storey = storeyAt(truth, z);
+  const auto index = static_cast<std::size_t>(storey);
+  if (index >= truth.storeys.size() || std::abs(truth.storeys[index].floor_z - z) > kSameStorey) return std::nullopt;
+  return storey;
+}
+
 ClaimedSpace claimedSpace(const map::MapView& view, const map::Prediction& prediction, const Frames& T_world_node,
                           const Truth& truth) {
   ClaimedSpace claim{.id = prediction.id,
@@ -64,7 +73,7 @@ ClaimedSpace claimedSpace(const map::MapView& view, const map::Prediction& predi
   if (const auto* cause = findEntity(view, prediction.cause)) claim.mobility = map::mobility(cause->attributes);
   const auto frame = T_world_node.find(prediction.node);
   if (frame == T_world_node.end()) return claim;
-  claim.storey = storeyAt(truth, frame->second.translation().z());
+  claim.storey = modelledStorey(truth, frame->second.translation().z());
   for (const auto& area : prediction.areas) {
     claim.areas_in_world[area.threshold] = transformed(frame->second, area.outline_in_submap);
   }

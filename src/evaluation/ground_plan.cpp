@@ -47,7 +47,7 @@ Polygon footprintOf(const TrueObject& object) {
 
 }  // namespace
 
-GroundPlan::GroundPlan(const Truth& truth, int storey) : truth_(&truth) {
+GroundPlan::GroundPlan(const Truth& truth, int storey) : doors_(truth.doors) {
   const auto box = boxOfStorey(truth, storey);
   rooms_ = openings_ = leaves_ = CellMap<std::int32_t>(box, -1);
   things_ = CellMap<std::uint8_t>(box, 0);
@@ -74,7 +74,7 @@ std::optional<std::size_t> GroundPlan::roomAt(geometry::CellIndex cell) const {
 
 bool GroundPlan::isFloor(geometry::CellIndex cell, base::Time at) const {
   const auto leaf = leaves_.at(cell);
-  if (leaf >= 0 && stateAt(truth_->doors[static_cast<std::size_t>(leaf)], at) == map::DoorState::kClosed) return false;
+  if (leaf >= 0 && stateAt(doors_[static_cast<std::size_t>(leaf)], at) == map::DoorState::kClosed) return false;
   return rooms_.at(cell) >= 0 || openings_.at(cell) >= 0;
 }
 

@@ -39,7 +39,7 @@ struct ClaimedSpace {
   base::SubMapId node;
   base::EntityId cause;
   std::optional<map::Mobility> mobility;  ///< of its cause; none where the map has lost it
-  int storey = 0;
+  std::optional<int> storey;              ///< none: at the height of no storey that the truth knows
   double probability = 0.0;
   base::Time made{};
   std::optional<base::Time> settled;

@@ -25,7 +25,7 @@ class GroundPlan {
   bool isFurnished(geometry::CellIndex cell) const { return things_.at(cell) != 0; }
 
  private:
-  const Truth* truth_;
+  std::vector<TrueDoor> doors_;
   CellMap<std::int32_t> rooms_;     ///< index, or -1
   CellMap<std::int32_t> openings_;  ///< of doors, index or -1
   CellMap<std::int32_t> leaves_;    ///< where they stand closed: index of the door, or -1
