@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulation/plan_stairs.hpp"
+
+#include "prodomos/base/random.hpp"
+
+#include "simulation/stairwell.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace prodomos::simulation {
+
+namespace {
+
+/// Steps that fill the height exactly, of a size that feet like: two risers and a tread are about 0.63 m.
+Climb climbOf(double storeyHeight, base::Random& random) {
+  Climb climb;
+  climb.stepCount = static_cast<int>(std::lround(storeyHeight / random.uniform(0.16, 0.18)));
+  climb.stepHeight = storeyHeight / climb.stepCount;
+  climb.stepDepth = std::clamp(0.63 - 2.0 * climb.stepHeight + random.uniform(-0.01, 0.01), 0.26, 0.31);
+  return climb;
+}
+
+/// Where one stands who has just come in by each of the room's doors.
+std::vector<Eigen::Vector2d> entrancesOf(const Building& building, int room) {
+  constexpr double kStep = 0.35;
+  std::vector<Eigen::Vector2d> entrances;
+  for (const auto& door : building.doors) {
+    const double inside = kStep + door.wallThickness / 2.0;
+    if (door.rooms[0] == room) entrances.push_back(door.pose * Eigen::Vector2d(-inside, 0.0));
+    if (door.rooms[1] == room) entrances.push_back(door.pose * Eigen::Vector2d(inside, 0.0));
+  }
+  return entrances;
+}
+
+}  // namespace
+
+void addStairs(std::uint64_t seed, std::size_t roomsOfStorey, double storeyHeight, Building& building) {
+  base::Random random(seed, "stairs");
+  const Climb climb = climbOf(storeyHeight, random);
+  const int storeys = static_cast<int>(building.storeys.size());
+  for (std::size_t i = 0; i < roomsOfStorey; ++i) {
+    const Room& room = building.rooms[i];
+    if (room.use != RoomUse::kStairs) continue;
+    const auto plan = planStairwell(room.outline, entrancesOf(building, static_cast<int>(i)), climb);
+    if (!plan) {
+      building.remarks.push_back("stairwell " + room.id +
+                                 " stays empty: it is too small for flights and the way to its doors");
+      continue;
+    }
+    for (int storey = 0; storey < std::max(1, storeys - 1); ++storey) {
+      const int here = static_cast<int>(i) + storey * static_cast<int>(roomsOfStorey);
+      const int above = storey + 1 < storeys ? here + static_cast<int>(roomsOfStorey) : kOutside;
+      const double floor_z = building.storeys[static_cast<std::size_t>(storey)].floor_z;
+      for (Staircase flight : plan->flights) {
+        flight.id = "s" + std::to_string(storey) + "." + std::to_string(building.stairs.size());
+        flight.lowerStorey = storey;
+        flight.upperStorey = storey + 1;
+        flight.rooms = {here, above};
+        flight.foot.z() += floor_z;
+        building.stairs.push_back(flight);
+      }
+      if (!plan->landing) continue;
+      building.landings.push_back(*plan->landing);
+      building.landings.back().lowerStorey = storey;
+      building.landings.back().z += floor_z;
+    }
+  }
+}
+
+}  // namespace prodomos::simulation
