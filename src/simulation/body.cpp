@@ -19,8 +19,8 @@ using Eigen::Vector3d;
 using geometry::Pose3;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr int kAroundTrunk = 20;
-constexpr int kAroundLimb = 12;
+constexpr int kAroundTrunk = 16;
+constexpr int kAroundLimb = 10;
 
 /// A cross section of the trunk: above the hip joints, half axes, and how far its middle lies ahead of the spine.
 struct TrunkSection {
@@ -33,22 +33,22 @@ struct TrunkSection {
 constexpr std::array kManTrunk = {
     TrunkSection{0.020, 0.171, 0.122, -0.010}, TrunkSection{0.060, 0.166, 0.117, -0.004},
     TrunkSection{0.110, 0.157, 0.108, 0.004},  TrunkSection{0.180, 0.151, 0.104, 0.008},
-    TrunkSection{0.260, 0.156, 0.110, 0.008},  TrunkSection{0.340, 0.165, 0.118, 0.006},
-    TrunkSection{0.410, 0.172, 0.117, 0.002},  TrunkSection{0.460, 0.176, 0.100, -0.006},
-    TrunkSection{0.495, 0.162, 0.082, -0.012}, TrunkSection{0.520, 0.124, 0.068, -0.014},
-    TrunkSection{0.543, 0.085, 0.058, -0.012}, TrunkSection{0.560, 0.066, 0.056, -0.008},
+    TrunkSection{0.270, 0.157, 0.111, 0.008},  TrunkSection{0.350, 0.166, 0.118, 0.006},
+    TrunkSection{0.410, 0.172, 0.117, 0.002},  TrunkSection{0.455, 0.182, 0.102, -0.006},
+    TrunkSection{0.492, 0.172, 0.080, -0.012}, TrunkSection{0.517, 0.130, 0.067, -0.014},
+    TrunkSection{0.543, 0.085, 0.061, -0.009}, TrunkSection{0.560, 0.066, 0.061, -0.002},
 };
 constexpr std::array kWomanTrunk = {
     TrunkSection{0.020, 0.178, 0.124, -0.014}, TrunkSection{0.060, 0.170, 0.117, -0.006},
     TrunkSection{0.110, 0.152, 0.104, 0.004},  TrunkSection{0.180, 0.132, 0.094, 0.008},
     TrunkSection{0.260, 0.139, 0.104, 0.012},  TrunkSection{0.340, 0.152, 0.126, 0.020},
-    TrunkSection{0.410, 0.160, 0.112, 0.008},  TrunkSection{0.460, 0.163, 0.090, -0.006},
-    TrunkSection{0.495, 0.150, 0.074, -0.012}, TrunkSection{0.520, 0.114, 0.062, -0.014},
-    TrunkSection{0.543, 0.078, 0.053, -0.012}, TrunkSection{0.560, 0.060, 0.051, -0.008},
+    TrunkSection{0.410, 0.160, 0.112, 0.008},  TrunkSection{0.455, 0.171, 0.092, -0.006},
+    TrunkSection{0.492, 0.161, 0.073, -0.012}, TrunkSection{0.517, 0.120, 0.062, -0.014},
+    TrunkSection{0.543, 0.078, 0.056, -0.009}, TrunkSection{0.560, 0.060, 0.055, -0.003},
 };
 /// Of the trousers' seat.
 constexpr std::array kSeat = {
-    TrunkSection{-0.085, 0.080, 0.075, -0.016}, TrunkSection{-0.045, 0.142, 0.106, -0.016},
+    TrunkSection{-0.080, 0.060, 0.066, -0.018}, TrunkSection{-0.045, 0.128, 0.098, -0.018},
     TrunkSection{0.000, 0.166, 0.116, -0.014},  TrunkSection{0.060, 0.161, 0.111, -0.004},
     TrunkSection{0.118, 0.150, 0.103, 0.004},
 };
@@ -63,7 +63,7 @@ struct LimbSection {
 
 constexpr std::array kArm = {
     LimbSection{0.00, 0.052, 0.056, 0.0}, LimbSection{0.20, 0.050, 0.054, 0.0}, LimbSection{0.50, 0.043, 0.046, 0.0},
-    LimbSection{0.80, 0.039, 0.042, 0.0}, LimbSection{1.00, 0.038, 0.040, 0.0}, LimbSection{1.20, 0.039, 0.041, 0.0},
+    LimbSection{0.82, 0.039, 0.042, 0.0}, LimbSection{1.00, 0.038, 0.040, 0.0}, LimbSection{1.20, 0.039, 0.041, 0.0},
     LimbSection{1.50, 0.034, 0.036, 0.0}, LimbSection{1.80, 0.026, 0.029, 0.0}, LimbSection{2.00, 0.021, 0.027, 0.0},
 };
 constexpr std::array kLeg = {
@@ -98,6 +98,7 @@ class Tailor {
   std::span<const TrunkSection> trunk() const {
     return look_.female ? std::span<const TrunkSection>(kWomanTrunk) : std::span<const TrunkSection>(kManTrunk);
   }
+  std::vector<Ring> shoulderRings(Side side, double girth, double ease) const;
   bool longSleeves() const { return look_.top != Top::kTShirt; }
   bool tucked() const { return look_.top == Top::kShirt; }
   /// How far cloth stands off, metres.
@@ -143,7 +144,8 @@ void Tailor::addTrunk(Surface& top, Surface& inner, Surface& trousers, Surface& 
   for (const auto& section : trunk()) {
     if (tucked() && section.z < 0.1) continue;
     // Cloth lies on the shoulders.
-    coat.push_back(trunkRing(section, section.z > 0.5 ? 0.004 : ease()));
+    const double loose = section.z < 0.04 ? ease() + 0.008 : ease();
+    coat.push_back(trunkRing(section, section.z > 0.5 ? 0.004 : loose));
   }
   addLoft(top, coat, kAroundTrunk, {tucked() ? 0.0 : 0.004, 0.0});
   if (tucked()) {
@@ -165,8 +167,12 @@ void Tailor::addTrunk(Surface& top, Surface& inner, Surface& trousers, Surface& 
     strip.push_back(ring);
   }
   if (opens) addLoft(inner, strip, 8, {0.002, 0.002});
-  addLoft(inner, {trunkRing({0.545, 0.080, 0.060, -0.006}, 0.006), trunkRing({0.575, 0.062, 0.062, 0.004}, 0.004)}, 16,
-          {0.002, 0.002});
+  TrunkSection neckline = trunk().back();
+  std::vector<Ring> collar{trunkRing(neckline, 0.005)};
+  neckline.z += 0.02;
+  neckline.ahead += 0.004;
+  collar.push_back(trunkRing(neckline, 0.003));
+  addLoft(inner, collar, kAroundTrunk);
 }
 
 void Tailor::addNeck(Surface& skin) const {
@@ -178,8 +184,8 @@ void Tailor::addNeck(Surface& skin) const {
                 factor * 1.05 * radius * frame.linear().col(0)};
   };
   addLoft(skin,
-          {ring(T, -0.008, -0.04, 1.25), ring(T, -0.004, 0.0, 1.08), ring(T, 0.004, 0.03, 0.98),
-           ring(head, 0.010, 0.07, 0.96), ring(head, 0.014, 0.11, 0.95)},
+          {ring(T, -0.008, -0.01, 0.92), ring(T, 0.002, 0.03, 0.96), ring(head, 0.010, 0.07, 0.96),
+           ring(head, 0.014, 0.11, 0.95)},
           14, {0.01, 0.01});
 }
 
@@ -220,13 +226,31 @@ std::vector<Ring> Tailor::limbRings(const Limb& limb, std::span<const LimbSectio
   return rings;
 }
 
+/// From within the trunk over the shoulder, where the loft turns from sideways to along the arm.
+std::vector<Ring> Tailor::shoulderRings(Side side, double girth, double ease) const {
+  const Limb& arm = posture_.arms[side];
+  const Vector3d along = (arm.middle - arm.root).normalized();
+  const Vector3d front = along.cross(arm.hinge).normalized();
+  const Vector3d chestwards = -signOf(side) * posture_.T_floor_chest.linear().col(1);
+  const Vector3d outward = (chestwards.dot(front) * front - chestwards).normalized();
+  const auto ring = [&](double inward, double sideways, double height, double depth) {
+    const Vector3d tangent = (sideways * outward + (1.0 - sideways) * along).normalized();
+    return Ring{arm.root - inward * scale_ * outward, (height * girth * scale_ + ease) * front.cross(tangent),
+                (depth * girth * scale_ + ease) * front};
+  };
+  return {ring(0.070, 1.0, 0.022, 0.044), ring(0.035, 0.85, 0.034, 0.053), ring(0.010, 0.6, 0.040, 0.054),
+          ring(0.002, 0.25, 0.045, 0.054)};
+}
+
 void Tailor::addArm(Side side, Surface& skin, Surface& top) const {
   const Limb& arm = posture_.arms[side];
   const double girth = (look_.female ? 0.88 : 1.0) * look_.girth;
   addLoft(skin, limbRings(arm, kArm, longSleeves() ? 1.75 : 0.55, 2.0, girth, 0.0), kAroundLimb);
   const double loose = std::min(ease(), 0.010) + (longSleeves() ? 0.004 : 0.007);
-  addLoft(top, limbRings(arm, kArm, 0.0, longSleeves() ? 1.93 : 0.72, girth, loose), kAroundLimb,
-          {0.05 * scale_, 0.002});
+  std::vector<Ring> sleeve = shoulderRings(side, girth, loose);
+  const auto tube = limbRings(arm, kArm, 0.2, longSleeves() ? 1.93 : 0.72, girth, loose);
+  sleeve.insert(sleeve.end(), tube.begin(), tube.end());
+  addLoft(top, sleeve, kAroundLimb);
 }
 
 void Tailor::addHand(Side side, Surface& skin) const {
@@ -242,9 +266,9 @@ void Tailor::addHand(Side side, Surface& skin) const {
                 scale_ * width * thumbwards, 2.3};
   };
   addLoft(skin,
-          {ring(-0.005, 0.0, 0.021, 0.027), ring(0.03, 0.002, 0.019, 0.034), ring(0.065, 0.002, 0.016, 0.042),
-           ring(0.10, 0.0, 0.014, 0.040), ring(0.14, -0.002, 0.012, 0.034), ring(0.165, -0.004, 0.009, 0.025)},
-          10, {0.0, 0.010});
+          {ring(-0.005, 0.0, 0.021, 0.027), ring(0.045, 0.002, 0.018, 0.038), ring(0.085, 0.001, 0.015, 0.042),
+           ring(0.135, -0.002, 0.012, 0.035), ring(0.165, -0.004, 0.009, 0.025)},
+          8, {0.0, 0.010});
   addLoft(skin, {ring(0.02, 0.020, 0.013, 0.014), ring(0.055, 0.042, 0.012, 0.013), ring(0.09, 0.052, 0.009, 0.010)}, 6,
           {0.0, 0.010});
 }
@@ -280,8 +304,8 @@ void Tailor::addShoe(Side side, Surface& shoe, Surface& sole) const {
     }
     return all;
   };
-  addLoft(shoe, rings(1.0, 0.0), 12, {0.012 * scale_, 0.014 * scale_});
-  addLoft(sole, rings(kSole, 0.004), 12, {0.016 * scale_, 0.018 * scale_});
+  addLoft(shoe, rings(1.0, 0.0), 10, {0.012 * scale_, 0.014 * scale_});
+  addLoft(sole, rings(kSole, 0.004), 8, {0.016 * scale_, 0.018 * scale_});
 }
 
 }  // namespace
@@ -312,7 +336,7 @@ std::vector<Surface> bodyOf(const Posture& posture, const Look& look, double hei
   }
 
   const Material lips{.color = {168, 92, 84}};
-  const Material white{.color = {232, 230, 226}};
+  const Material white{.color = {205, 200, 194}};
   const Material iris{.color = {42, 34, 30}};
   std::vector<Surface> body;
   const auto add = [&](Surface& surface, const Material& material) {

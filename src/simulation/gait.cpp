@@ -26,6 +26,9 @@ constexpr double kTurnPerStep = 60.0 * kDegree;
 
 /// A step's share before its foot leaves the floor, and after it is down again.
 constexpr double kDoubleSupport = 0.1;
+/// A foot's n-th step sets it down for the steps n + 0.9 to n + 2.1. It stands a little behind the body's way, since
+/// its ankle goes ahead while the heel rises.
+constexpr double kMiddleOfStance = 1.46;
 constexpr double kHeelStrike = 16.0 * kDegree;
 constexpr double kToeOff = 45.0 * kDegree;
 constexpr double kToesOut = 7.0 * kDegree;
@@ -34,7 +37,7 @@ constexpr double kHalfTrack = 0.042;
 constexpr double kHeel = 0.028;
 constexpr double kBall = 0.072;
 /// The ankle stands a little behind the body's middle.
-constexpr double kBehind = 0.018;
+constexpr double kBehind = 0.008;
 /// A stride (two steps) of this length has the full play of the foot.
 constexpr double kFullStride = 0.75;
 
@@ -194,7 +197,7 @@ geometry::Pose2 Gait::footprint(int step) const {
     return {rest[0], rest[1], rest[2]};
   }
   if (step + 2 >= walk->endStep) return poseAt(walk->end);
-  return poseAt(timeOfStep(*walk, step + 1.5));
+  return poseAt(timeOfStep(*walk, step + kMiddleOfStance));
 }
 
 std::array<Foot, 2> Gait::feetAt(double steps) const {

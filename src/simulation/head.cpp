@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kAround = 18;
+constexpr int kAround = 14;
 constexpr double kChin = 0.043;         // above the neck's base
 constexpr double kHeadHeight = 0.2275;  // chin to crown
 
@@ -50,9 +50,13 @@ std::vector<Section> hairSections(Hair style) {
   const double thickness = style == Hair::kShaved ? 0.003 : (style == Hair::kShort ? 0.010 : 0.017);
   std::vector<Section> sections;
   if (style == Hair::kLong) {
-    sections = {{-0.42, 0.060, -0.055, -0.115}, {-0.25, 0.082, -0.030, -0.128}, {-0.05, 0.088, 0.000, -0.120}};
+    sections = {{-0.45, 0.078, -0.050, -0.125},
+                {-0.25, 0.088, -0.020, -0.132},
+                {-0.05, 0.088, 0.005, -0.120},
+                {0.15, 0.086, 0.012, -0.108},
+                {0.32, 0.086, 0.018, -0.104}};
   }
-  const double nape = style == Hair::kLong ? 0.0 : 0.2;
+  const double nape = style == Hair::kLong ? 0.4 : 0.2;
   for (const Section& head : kHeadSections) {
     if (head.level < nape) continue;
     const double hairline = head.level < 0.45 ? 0.000 : (head.level < 0.65 ? 0.030 : 0.062);
@@ -84,15 +88,15 @@ Head headOf(const Look& look) {
   const auto height = [](double level) { return kChin + level * kHeadHeight; };
   for (const double side : {-1.0, 1.0}) {
     addEllipsoid(head.skin, {0.008, side * 0.077, height(0.45)}, {0.0, -0.007, 0.0}, {0.016, 0.0, 0.0},
-                 {0.0, 0.0, 0.029}, 8);
+                 {0.0, 0.0, 0.029}, 6);
     addEllipsoid(head.eyes, {0.0945, side * 0.031, height(0.515)}, {0.0, -0.014, 0.0}, {0.006, side * -0.004, 0.0},
-                 {0.0, 0.0, 0.007}, 8);
-    addEllipsoid(head.irises, {0.0975, side * 0.030, height(0.515)}, {0.0, -0.006, 0.0}, {0.0045, 0.0, 0.0},
+                 {0.0, 0.0, 0.006}, 6);
+    addEllipsoid(head.irises, {0.0975, side * 0.030, height(0.515)}, {0.0, -0.0075, 0.0}, {0.0045, 0.0, 0.0},
                  {0.0, 0.0, 0.0065}, 6);
     addEllipsoid(head.hair, {0.1, side * 0.033, height(0.585)}, {0.0, -0.019, 0.0}, {0.006, side * -0.005, 0.0},
                  {0.0, 0.0, 0.0045}, 6);
   }
-  addEllipsoid(head.lips, {0.1035, 0.0, height(0.205)}, {0.0, -0.023, 0.0}, {0.007, 0.0, 0.0}, {0.0, 0.0, 0.0075}, 8);
+  addEllipsoid(head.lips, {0.1035, 0.0, height(0.205)}, {0.0, -0.023, 0.0}, {0.007, 0.0, 0.0}, {0.0, 0.0, 0.0075}, 6);
   return head;
 }
 

@@ -22,7 +22,7 @@ Vector3d alongOf(const Ring& ring) {
 /// Rings of an elliptical dome on `base`, from the top down; the pole itself is a ring of no size.
 std::vector<Ring> domeOver(const Ring& base, const Vector3d& height) {
   std::vector<Ring> dome;
-  for (const double elevation : {90.0, 55.0, 25.0}) {
+  for (const double elevation : {90.0, 45.0}) {
     const double angle = elevation * kPi / 180.0;
     Ring ring = base;
     ring.center += std::sin(angle) * height;

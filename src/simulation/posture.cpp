@@ -21,7 +21,7 @@ constexpr double kDegree = kPi / 180.0;
 /// Length of a step that swings arms and hips as below, as a share of height.
 constexpr double kPlainStep = 0.39;
 /// Knees are never quite straight.
-constexpr double kLegReach = 0.985;
+constexpr double kLegReach = 0.994;
 
 /// Angles of an arm in the chest's frame, radians.
 struct ArmAngles {
@@ -142,7 +142,7 @@ double hipHeight(const Posture& posture, double height) {
 
 ArmAngles standingArm(const Manner& manner, Side side) {
   const ArmAngles hanging{3.0 * kDegree, 8.0 * kDegree, 15.0 * kDegree, 14.0 * kDegree};
-  const ArmAngles holding{22.0 * kDegree, 6.0 * kDegree, 28.0 * kDegree, 95.0 * kDegree};
+  const ArmAngles holding{22.0 * kDegree, 6.0 * kDegree, 28.0 * kDegree, 112.0 * kDegree};
   const ArmAngles clasped{16.0 * kDegree, 9.0 * kDegree, 52.0 * kDegree, 58.0 * kDegree};
   if (manner.standingArms == 1) return clasped;
   if (manner.standingArms == 2 && side == kRight) return holding;

@@ -40,9 +40,9 @@ struct Proportions {
   double halfHips = 0.055;  ///< from the middle to a hip joint
   double thigh = 0.245;
   double shank = 0.246;
-  double shoulderHeight = 0.812;
+  double shoulderHeight = 0.797;
   double halfShoulders = 0.103;
-  double upperArm = 0.186;
+  double upperArm = 0.174;
   double forearm = 0.146;
   double neckHeight = 0.845;
   double ankleHeight = 0.039;
