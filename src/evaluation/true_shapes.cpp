@@ -8,7 +8,7 @@ namespace prodomos::evaluation {
 
 std::vector<Hinge> hingesOf(const TrueDoor& door) {
   const auto hinge = [&](double side, double width) {
-    return Hinge{{0.0, side * 0.5 * door.width, -side * std::numbers::pi / 2}, width};
+    return Hinge{{door.leafOffset, side * 0.5 * door.width, -side * std::numbers::pi / 2}, width};
   };
   if (door.leaves == 0) return {};
   if (door.leaves > 1) return {hinge(1.0, 0.5 * door.width), hinge(-1.0, 0.5 * door.width)};
