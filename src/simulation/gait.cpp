@@ -16,7 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Seconds to either side over which the way is averaged: a turn takes twice that.
-constexpr double kSmoothing = 0.28;
+constexpr double kSmoothing = 0.3;
 /// Of the length of a step on its duration, m·s: it is the same at all speeds that a person chooses (Sekiya and
 /// Nagasaki 1998: 0.0064 m per step a minute), of one of kMeanHeight.
 constexpr double kWalkRatio = 0.384;
@@ -34,7 +34,7 @@ constexpr double kToeOff = 45.0 * kDegree;
 constexpr double kToesOut = 7.0 * kDegree;
 /// Lengths of a person of 1 m: from the middle to the ankle, from the ankle back to the heel and ahead to the ball.
 constexpr double kHalfTrack = 0.042;
-constexpr double kHeel = 0.028;
+constexpr double kHeel = 0.036;
 constexpr double kBall = 0.072;
 /// The ankle stands a little behind the body's middle.
 constexpr double kBehind = 0.008;

@@ -18,7 +18,7 @@ constexpr double kLeastHeight = 0.9;
 constexpr double kMostHeight = 2.3;
 
 /// Of the head's frame, metres of a person of 1 m.
-const Eigen::Vector3d kTopOfHead(0.012, 0.0, 0.155);
+const Eigen::Vector3d kTopOfHead(0.006, 0.0, 0.153);
 
 }  // namespace
 

@@ -172,7 +172,7 @@ Posture uprightPosture(const Person& person, double time) {
                                 AngleAxisd(2.5 * kDegree * vigour * weight, Vector3d::UnitX()));
   posture.T_floor_pelvis.translation().z() = hipHeight(posture, height);
 
-  const double twist = (9.0 * vigour * swing + 3.0 * rest * manner.unrest(1, time)) * kDegree;
+  const double twist = (7.0 * vigour * swing + 3.0 * rest * manner.unrest(1, time)) * kDegree;
   const double lean = (1.0 + 2.0 * vigour) * kDegree;
   const double look = ((4.0 + 14.0 * rest) * manner.unrest(2, time) - 4.0 * vigour * swing) * kDegree;
   const double nod = (2.0 + 5.0 * rest * manner.unrest(3, time)) * kDegree - lean;
