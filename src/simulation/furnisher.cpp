@@ -147,9 +147,10 @@ bool Furnisher::workplace(const geometry::Pose2& desk, std::string_view kind) {
   const auto table = add(kind, desk);
   if (!table) return false;
   const auto chair = make("office_chair");
-  const double before = (table->size.x() + chair.size.x()) / 2.0 + random_.uniform(0.03, 0.2);
-  const double aside = random_.uniform(-0.15, 0.15);
-  add(chair, desk * geometry::Pose2{before, aside, std::numbers::pi + random_.uniform(-0.4, 0.4)}, 0.0);
+  const double turn = random_.uniform(-0.4, 0.4);
+  const double reach = chair.size.x() * std::cos(turn) + chair.size.y() * std::abs(std::sin(turn));
+  const double before = (table->size.x() + reach) / 2.0 + random_.uniform(0.01, 0.12);
+  add(chair, desk * geometry::Pose2{before, random_.uniform(-0.15, 0.15), std::numbers::pi + turn}, 0.0);
   const auto screen = make("screen");
   const double back = (screen.size.x() - table->size.x()) / 2.0 + 0.06;
   add(screen, desk * geometry::Pose2{back, random_.uniform(-0.15, 0.15), 0.0}, table->size.z());

@@ -31,7 +31,7 @@ std::vector<Eigen::Vector2d> placesForLamps(const Building& building, const Room
     };
     const auto isAbove = [&](const Staircase& stairs) {
       const bool here = stairs.lowerStorey == room.storey || stairs.upperStorey == room.storey;
-      return here && footprintOf(stairs).distanceTo(point) < kFromWalls;
+      return here && placeOf(stairs).distanceTo(point) < kFromWalls;
     };
     return std::ranges::none_of(walls, isNear) && std::ranges::none_of(building.stairs, isAbove);
   };
@@ -114,7 +114,7 @@ void hangLamps(Building& building) {
       thing.size = kind->least;
       thing.T_world_thing = geometry::toPose3({lamp.x(), lamp.y(), std::atan2(wall.inward().y(), wall.inward().x())},
                                               ceiling - thing.size.z() / 2.0);
-      if (isWithin(room.outline, footprintOf(thing))) building.things.push_back(std::move(thing));
+      if (isWithin(room.outline, placeOf(thing))) building.things.push_back(std::move(thing));
       break;
     }
   }

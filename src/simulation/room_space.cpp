@@ -51,17 +51,17 @@ RoomSpace::RoomSpace(const Building& building, int room)
   keepWaysClear(building);
   rasterize();
   for (const auto& thing : building.things) {
-    if (thing.storey != room_.storey || !contains(room_.outline, footprintOf(thing).middle)) continue;
+    if (thing.storey != room_.storey || !contains(room_.outline, placeOf(thing).middle)) continue;
     taken_.push_back(volumeOf(thing));
     if (hangs(thing)) continue;
-    for (const auto cell : cellsNear(footprintOf(thing))) open_[cell] = 0;
+    for (const auto cell : cellsNear(placeOf(thing))) open_[cell] = 0;
   }
   findReach();
 }
 
 RoomSpace::Volume RoomSpace::volumeOf(const Thing& thing) {
   const double middle = thing.T_world_thing.translation().z();
-  return {footprintOf(thing), middle - thing.size.z() / 2.0, middle + thing.size.z() / 2.0};
+  return {placeOf(thing), middle - thing.size.z() / 2.0, middle + thing.size.z() / 2.0};
 }
 
 void RoomSpace::keepDoorsClear(const Building& building) {
@@ -76,7 +76,7 @@ void RoomSpace::keepDoorsClear(const Building& building) {
       const double leaf = door.leaves == 2 ? door.width / 2.0 : door.width;
       const double depth = swingsHere ? std::max(kBeforeDoor, leaf + 0.1) : kBeforeDoor;
       clear_.push_back({sill + into * depth / 2.0, door.pose.theta, {depth, door.width + 0.2}});
-      openings_.push_back({sill, door.pose.theta, {2.0 * kInView, door.width + 2.0 * kFrame}});
+      hidden_.push_back({sill, door.pose.theta, {2.0 * kInView, door.width + 2.0 * kFrame}});
       goals_.emplace_back(sill + into * (clearance_ + kCell));
     }
   }
@@ -85,13 +85,15 @@ void RoomSpace::keepDoorsClear(const Building& building) {
 void RoomSpace::keepStairsClear(const Building& building) {
   for (const auto& stairs : building.stairs) {
     if (room_.storey != stairs.lowerStorey && room_.storey != stairs.upperStorey) continue;
-    auto flight = footprintOf(stairs);
+    auto flight = placeOf(stairs);
     if (!contains(room_.outline, flight.middle)) continue;
     const Eigen::Vector2d uphill = unit(stairs.direction);
     const bool atHead = room_.storey == stairs.upperStorey;
     const Eigen::Vector3d end = atHead ? headOf(stairs) : stairs.foot;
     goals_.emplace_back(end.head<2>() + (atHead ? 1.0 : -1.0) * (clearance_ + kCell) * uphill);
     flights_.push_back(flight);
+    // Steps that rise along a wall hide it; above a flight that goes down it is free.
+    if (!atHead) hidden_.push_back({flight.middle, flight.heading, flight.size + Eigen::Vector2d(0.1, 2.0 * kInView)});
     flight.middle += (atHead ? 1.0 : -1.0) * kBeforeStairs / 2.0 * uphill;
     flight.size += Eigen::Vector2d(kBeforeStairs, 0.1);
     clear_.push_back(flight);
@@ -234,7 +236,7 @@ bool RoomSpace::fits(const Thing& thing) const {
   if (!isWithin(room_.outline, volume.footprint) || volume.top > floor_z() + ceilingHeight()) return false;
   const auto meets = [&](const Footprint& other) { return overlap(other, volume.footprint); };
   const bool onWall = hangs(thing);
-  if (onWall && volume.bottom < floor_z() + 2.3 && std::ranges::any_of(openings_, meets)) return false;
+  if (onWall && std::ranges::any_of(hidden_, meets)) return false;
   if (!onWall && volume.bottom < floor_z() + kHeadroom && std::ranges::any_of(clear_, meets)) return false;
   return std::ranges::none_of(taken_, [&](const Volume& other) {
     return volume.bottom < other.top - 1e-6 && other.bottom < volume.top - 1e-6 && meets(other.footprint);

@@ -62,8 +62,8 @@ class RoomSpace {
   Storey storey_;
   double clearance_;  ///< half the width of a way, metres
   std::vector<WallStretch> walls_;
-  std::vector<Footprint> openings_;     ///< doors and their frames: nothing hangs there
-  std::vector<Footprint> clear_;        ///< nothing stands there
+  std::vector<Footprint> hidden_;  ///< doors, their frames, steps: nothing hangs there
+  std::vector<Footprint> clear_;   ///< nothing stands there
   std::vector<Footprint> flights_;
   std::vector<Eigen::Vector2d> goals_;  ///< before doors and stairs
   std::vector<Volume> taken_;

@@ -406,7 +406,7 @@ int SceneReader::roomHolding(YamlMap& map, const Staircase& stairs, bool head) {
   constexpr double kLanding = 0.6;  // metres
   const int storey = head ? stairs.upperStorey : stairs.lowerStorey;
   if (!isModelled(storey)) return kOutside;
-  auto footprint = footprintOf(stairs);
+  auto footprint = placeOf(stairs);
   const Eigen::Vector2d uphill(std::cos(stairs.direction), std::sin(stairs.direction));
   footprint.middle += (head ? 1.0 : -1.0) * kLanding / 2.0 * uphill;
   footprint.size.x() += kLanding;
@@ -497,7 +497,7 @@ void SceneReader::placeThing(YamlMap& map, const ThingKind& kind, const Eigen::V
   if (bottom + thing.size.z() > storey.ceilingHeight) {
     map.fault("z", "a thing below the ceiling", "one up to " + toText(bottom + thing.size.z()) + " m");
   }
-  if (!isWithin(room(in).outline, footprintOf(thing))) {
+  if (!isWithin(room(in).outline, placeOf(thing))) {
     map.fault("at", "a thing within the walls of '" + room(in).id + "'", "one that cuts them at " + toText(at));
   }
 }
@@ -529,7 +529,7 @@ void SceneReader::seatPeople() {
     if (!person.sits) continue;
     const auto& seat = person.way.front().position;
     const auto isBelow = [&](const Thing& thing) {
-      return thing.storey == person.storey && footprintOf(thing).distanceTo(seat) < 0.2;
+      return thing.storey == person.storey && placeOf(thing).distanceTo(seat) < 0.2;
     };
     if (std::ranges::any_of(building_.things, isBelow)) continue;
     const auto* kind = findThingKind("chair");
@@ -577,7 +577,7 @@ void SceneReader::markFurnished() {
   for (std::size_t i = 0; i < building_.rooms.size(); ++i) {
     auto& room = building_.rooms[i];
     const auto standsIn = [&](const Thing& thing) {
-      return thing.storey == room.storey && contains(room.outline, footprintOf(thing).middle);
+      return thing.storey == room.storey && contains(room.outline, placeOf(thing).middle);
     };
     room.furnished = furnish_[i] ? !*furnish_[i] : std::ranges::any_of(building_.things, standsIn);
   }

@@ -162,11 +162,11 @@ double Footprint::distanceTo(const Eigen::Vector2d& point) const {
   return std::hypot(std::max(x, 0.0), std::max(y, 0.0));
 }
 
-Footprint footprintOf(const Thing& thing) {
+Footprint placeOf(const Thing& thing) {
   return {thing.T_world_thing.translation().head<2>(), geometry::yaw(thing.T_world_thing), thing.size.head<2>()};
 }
 
-Footprint footprintOf(const Staircase& stairs) {
+Footprint placeOf(const Staircase& stairs) {
   const Eigen::Vector2d foot = stairs.foot.head<2>();
   const Eigen::Vector2d head = headOf(stairs).head<2>();
   return {(foot + head) / 2.0, stairs.direction, {(head - foot).norm(), stairs.width}};

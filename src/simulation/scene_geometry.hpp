@@ -50,9 +50,9 @@ struct Footprint {
   double distanceTo(const Eigen::Vector2d& point) const;
 };
 
-Footprint footprintOf(const Thing& thing);
+Footprint placeOf(const Thing& thing);
 /// From its foot to its head.
-Footprint footprintOf(const Staircase& stairs);
+Footprint placeOf(const Staircase& stairs);
 
 /// Share more than an edge.
 bool overlap(const Footprint& a, const Footprint& b);
