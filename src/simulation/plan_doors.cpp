@@ -11,6 +11,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -109,12 +111,15 @@ class DoorPlacer {
     const std::array rooms{*first, *second};
     if (wish.fillsWall && liesInPassage(portal.position, rooms)) return;
     std::optional<Door> best;
-    double leastCost = kFarthestMove;
+    double leastCost = std::numeric_limits<double>::infinity();
     for (const auto& wall : sharedWalls(building_, rooms, portal.position)) {
       for (const auto& part : wall.free) {
         Door door{.storey = 0, .rooms = rooms, .height = wish.height, .leaves = wish.leaves};
-        const double cost = fit(door, wall, part, wish);
-        if (cost >= leastCost || !isSound(door, wall)) continue;
+        const double moved = fit(door, wall, part, wish);
+        // A door that must be narrower is worse than one that moves a little.
+        constexpr double kCostOfNarrowing = 2.0;
+        const double cost = moved + (wish.fillsWall ? 0.0 : kCostOfNarrowing * (wish.width - door.width));
+        if (moved > kFarthestMove || cost >= leastCost || !isSound(door, wall)) continue;
         leastCost = cost;
         best = std::move(door);
       }
@@ -133,7 +138,7 @@ class DoorPlacer {
     });
   }
 
-  /// Places the door in that part of a wall as near to the portal as may be; returns what that costs, in metres moved.
+  /// Places the door in that part of a wall as near to the portal as may be; returns how far it has moved, metres.
   double fit(Door& door, const SharedWall& wall, const Interval& part, const Wish& wish) const {
     door.width = wish.fillsWall ? part.length() : std::min(wish.width, part.length());
     if (door.leaves == 2 && door.width < kLeastDoubleWidth && wish.width >= kLeastDoubleWidth) {
@@ -145,11 +150,9 @@ class DoorPlacer {
     const Eigen::Vector2d position = wall.origin + centre * wall.along + middle * wall.normal();
     door.pose = {position.x(), position.y(), std::atan2(wall.normal().y(), wall.normal().x())};
     door.wallThickness = wall.thicknessAt(centre);
-    // A passage is as near as its nearest end; a door that must be narrower is worse than one moved a little.
+    // A passage is as near as its nearest end.
     const double along = wish.fillsWall ? std::max({part.from, -part.to, 0.0}) : centre;
-    constexpr double kCostOfNarrowing = 2.0;
-    const double narrowing = wish.fillsWall ? 0.0 : wish.width - door.width;
-    return std::hypot(along, middle) + kCostOfNarrowing * narrowing;
+    return std::hypot(along, middle);
   }
 
   /// Both jambs stand in a wall of sensible thickness, and no other room lies in the way.

@@ -55,9 +55,8 @@ class DrawingReader {
     }
     const Node building = document_.child("building");
     if (!building) fail("root", "<building>", "<" + std::string(document_.document_element().name()) + ">");
-    metresPerPixel_ = readScale(building.child("scale"));
+    drawing_.metresPerPixel = readScale(building.child("scale"));
     drawing_.name = file_.stem().string();
-    drawing_.buildingType = building.child("building_type").child_value("main_type");
     const Node spaces = building.child("floor").child("spaces");
     for (const Node space : spaces.children("space")) readSpace(space);
     if (drawing_.spaces.empty()) fail("building/floor/spaces", "spaces with a bounding_polygon", "none");
@@ -100,7 +99,7 @@ class DrawingReader {
       if (!value) fail(place, "points with numbers x and y", std::string(name) + "=" + quoted(text));
       return *value;
     };
-    return metresPerPixel_ * Eigen::Vector2d(coordinate("x"), -coordinate("y"));
+    return drawing_.metresPerPixel * Eigen::Vector2d(coordinate("x"), -coordinate("y"));
   }
 
   void readSpace(const Node& node) {
@@ -199,16 +198,18 @@ class DrawingReader {
       return;
     }
     const Eigen::Vector2d position = (points.front() + points.back()) / 2.0;
-    drawing_.portals.push_back({.id = entry.id,
-                                .spaces = spaces,
-                                .position = position,
-                                .isOpen = entry.isOpen && (!partner || partner->isOpen),
-                                .isDouble = entry.isDouble});
+    // Where the two disagree, a door outweighs a mere boundary, and a double door a single one.
+    DrawnPortal portal{.id = entry.id, .spaces = spaces, .position = position, .isOpen = entry.isOpen};
+    portal.isDouble = entry.isDouble;
+    if (partner) {
+      portal.isOpen = portal.isOpen && partner->isOpen;
+      if (partner->isDouble) portal.isDouble = portal.isDouble.value_or(false) || *partner->isDouble;
+    }
+    drawing_.portals.push_back(std::move(portal));
   }
 
   std::filesystem::path file_;
   pugi::xml_document document_;
-  double metresPerPixel_ = 0.0;
   Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
   std::set<std::string> known_;
   std::map<std::string, std::size_t> indexOf_;

@@ -33,7 +33,7 @@ struct DrawnPortal {
 
 struct PlanDrawing {
   std::string name;
-  std::string buildingType;  ///< "SCHOOL", "OFFICE", …
+  double metresPerPixel = 0.0;
   std::vector<DrawnSpace> spaces;
   std::vector<DrawnPortal> portals;
   std::vector<std::string> remarks;

@@ -14,8 +14,11 @@ namespace prodomos::simulation {
 
 namespace {
 
-constexpr double kDrawingTolerance = 0.02;  // Metres; what hands and pixels add to a straight wall.
-constexpr double kLeastArea = 0.4;          // m², of a room
+constexpr double kSame = 0.005;          // Metres, between corners.
+constexpr double kFaceTolerance = 0.02;  // Of faces: little, since walls must keep their thickness.
+constexpr double kMostSmoothing = 0.1;   // Of outlines, whatever a pixel is.
+constexpr double kLeastArea = 0.4;       // m², of a room.
+constexpr double kNotableOverlap = 1.0;  // m²; less is how hands draw.
 
 std::string squareMetres(double area) {
   std::array<char, 32> text{};
@@ -69,8 +72,10 @@ class FaceMaker {
   }
 
   void shrink(std::size_t space) {
-    const Polygon outline = cleaned(drawing_.spaces[space].outline, kDrawingTolerance);
+    Polygon outline = cleaned(drawing_.spaces[space].outline, kSame);
     if (outline.empty()) return remark(space, "is left out: its outline has no area");
+    // A kink of one pixel in a wall is the drawing's, not the house's.
+    outline = simplified(outline, std::min(1.01 * drawing_.metresPerPixel, kMostSmoothing));
     keepGreatest(space, inset(outline, wallThickness_ / 2.0));
   }
 
@@ -83,7 +88,7 @@ class FaceMaker {
     const double lost = std::accumulate(pieces.begin() + 1, pieces.end(), 0.0,
                                         [](double sum, const Polygon& piece) { return sum + signedArea(piece); });
     if (lost > kLeastArea) remark(space, "falls apart: " + squareMetres(lost) + " behind a narrow place are left out");
-    const Polygon face = cleaned(pieces.front(), kDrawingTolerance);
+    const Polygon face = simplified(cleaned(pieces.front(), kSame), kFaceTolerance);
     if (face.empty() || findSelfCrossing(face)) return remark(space, "is left out: its walls touch each other");
     faces_[space] = face;
   }
@@ -100,7 +105,7 @@ class FaceMaker {
       faces_[smaller].reset();
       return;
     }
-    if (overlap > kLeastArea) {
+    if (overlap > kNotableOverlap) {
       remark(greater, "is drawn over a " + drawing_.spaces[smaller].label + ": it loses " + squareMetres(overlap));
     }
     keepGreatest(greater, rest.pieces);

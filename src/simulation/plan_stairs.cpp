@@ -15,13 +15,24 @@ namespace prodomos::simulation {
 
 namespace {
 
+constexpr double kHighestStep = 0.19;
+constexpr double kShortestStep = 0.26;
+constexpr double kLongestStep = 0.31;
+
 /// Steps that fill the height exactly, of a size that feet like: two risers and a tread are about 0.63 m.
-Climb climbOf(double storeyHeight, base::Random& random) {
+Climb comfortableClimb(double storeyHeight, base::Random& random) {
   Climb climb;
   climb.stepCount = static_cast<int>(std::lround(storeyHeight / random.uniform(0.16, 0.18)));
   climb.stepHeight = storeyHeight / climb.stepCount;
-  climb.stepDepth = std::clamp(0.63 - 2.0 * climb.stepHeight + random.uniform(-0.01, 0.01), 0.26, 0.31);
+  const double depth = 0.63 - 2.0 * climb.stepHeight + random.uniform(-0.01, 0.01);
+  climb.stepDepth = std::clamp(depth, kShortestStep, kLongestStep);
   return climb;
+}
+
+/// The steepest one may build.
+Climb steepClimb(double storeyHeight) {
+  const int steps = static_cast<int>(std::ceil(storeyHeight / kHighestStep));
+  return {.stepCount = steps, .stepHeight = storeyHeight / steps, .stepDepth = kShortestStep};
 }
 
 /// Where one stands who has just come in by each of the room's doors.
@@ -40,12 +51,14 @@ std::vector<Eigen::Vector2d> entrancesOf(const Building& building, int room) {
 
 void addStairs(std::uint64_t seed, std::size_t roomsOfStorey, double storeyHeight, Building& building) {
   base::Random random(seed, "stairs");
-  const Climb climb = climbOf(storeyHeight, random);
+  const Climb comfortable = comfortableClimb(storeyHeight, random);
   const int storeys = static_cast<int>(building.storeys.size());
   for (std::size_t i = 0; i < roomsOfStorey; ++i) {
     const Room& room = building.rooms[i];
     if (room.use != RoomUse::kStairs) continue;
-    const auto plan = planStairwell(room.outline, entrancesOf(building, static_cast<int>(i)), climb);
+    const auto entrances = entrancesOf(building, static_cast<int>(i));
+    auto plan = planStairwell(room.outline, entrances, comfortable);
+    if (!plan) plan = planStairwell(room.outline, entrances, steepClimb(storeyHeight));
     if (!plan) {
       building.remarks.push_back("stairwell " + room.id +
                                  " stays empty: it is too small for flights and the way to its doors");

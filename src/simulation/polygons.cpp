@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace prodomos::simulation {
@@ -64,6 +65,12 @@ bool isSpare(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Ve
   // Of a needle the legs lie on each other, and a and c may be one point: the longer leg is the base.
   const double base = std::max({ab.norm(), bc.norm(), (c - a).norm()});
   return doubledArea <= tolerance * base;
+}
+
+double distanceToSegment(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Eigen::Vector2d& point) {
+  const Eigen::Vector2d span = to - from;
+  const double share = span.squaredNorm() > 0.0 ? (point - from).dot(span) / span.squaredNorm() : 0.0;
+  return (point - from - std::clamp(share, 0.0, 1.0) * span).norm();
 }
 
 /// Heights at which a scan line meets a corner or a crossing of edges, ascending.
@@ -115,6 +122,32 @@ Polygon cleaned(Polygon polygon, double tolerance) {
   if (polygon.size() < 3) return {};
   if (signedArea(polygon) < 0.0) std::ranges::reverse(polygon);
   return polygon;
+}
+
+Polygon simplified(const Polygon& polygon, double tolerance) {
+  std::vector<std::size_t> kept(polygon.size());
+  std::iota(kept.begin(), kept.end(), std::size_t{0});
+  // How far the corners between a kept one's neighbours stand off the edge that would join these.
+  const auto offset = [&](std::size_t k) {
+    const std::size_t from = kept[(k + kept.size() - 1) % kept.size()];
+    const std::size_t to = kept[(k + 1) % kept.size()];
+    double greatest = 0.0;
+    for (std::size_t i = (from + 1) % polygon.size(); i != to; i = (i + 1) % polygon.size()) {
+      greatest = std::max(greatest, distanceToSegment(polygon[from], polygon[to], polygon[i]));
+    }
+    return greatest;
+  };
+  while (kept.size() > 3) {
+    std::size_t least = 0;
+    for (std::size_t k = 1; k < kept.size(); ++k) {
+      if (offset(k) < offset(least)) least = k;
+    }
+    if (offset(least) > tolerance) break;
+    kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(least));
+  }
+  Polygon fewer;
+  for (const std::size_t i : kept) fewer.push_back(polygon[i]);
+  return findSelfCrossing(fewer) ? polygon : fewer;
 }
 
 std::vector<Polygon> inset(const Polygon& polygon, double distance) {

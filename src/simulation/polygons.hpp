@@ -24,9 +24,13 @@ struct Edge {
 };
 Edge edgeOf(const Polygon& polygon, std::size_t i);
 
-/// Counter-clockwise, without repeated corners, needles (the outline runs back over itself) and corners that stand off
-/// the line between their neighbours by less than the tolerance. Empty where no area is left.
+/// Counter-clockwise, without repeated corners, corners on a straight line, and needles (the outline runs back over
+/// itself), all to within a tolerance. Empty where no area is left.
 Polygon cleaned(Polygon polygon, double tolerance);
+
+/// With as few corners as keep all of them within a tolerance of the new edges; as it is where that would make it
+/// cross itself.
+Polygon simplified(const Polygon& polygon, double tolerance);
 
 /// Moved inwards by a distance (outwards where it is negative) with mitred corners: its pieces, the greatest first,
 /// counter-clockwise.
