@@ -196,7 +196,7 @@ constexpr Kind kRelations = {"relations", "the way against true relations betwee
                              evaluateRelations};
 constexpr Kind kTrajectory = {"trajectory", "the way against true poses", addTrajectory, evaluateTrajectory};
 
-constexpr std::array kKinds = {&kRelations, &kTrajectory};
+constexpr std::array kKinds = {&kRelations, &kTrajectory, &kPrediction};
 
 void addCommonOptions(CLI::App& kind, EvaluateOptions& options, bool againstTruthFiles) {
   if (!againstTruthFiles) {
@@ -251,7 +251,8 @@ void addEvaluate(CLI::App& program) {
       "prodomos evaluate KIND --help has options and examples of each kind.\n"
       "Examples:\n"
       "  prodomos evaluate relations intel.prodomos --relations intel.relations\n"
-      "  prodomos evaluate trajectory room.prodomos --truth groundtruth.txt --json");
+      "  prodomos evaluate trajectory room.prodomos --truth groundtruth.txt --json\n"
+      "  prodomos evaluate prediction office.prodomos --truth office.truth.json");
   for (const Kind* kind : kKinds) {
     auto* subcommand = command->add_subcommand(kind->name, kind->text);
     auto options = std::make_shared<EvaluateOptions>();

@@ -45,13 +45,4 @@ const std::vector<Measure>& comparedMeasures() {
   return kMeasures;
 }
 
-std::optional<std::size_t> worstOf(const std::vector<PredictionScore>& scores, const Measure& measure) {
-  std::optional<std::size_t> worst;
-  for (std::size_t i = 0; i < scores.size(); ++i) {
-    const auto value = measure.value(scores[i]);
-    if (value && (!worst || *value < *measure.value(scores[*worst]))) worst = i;
-  }
-  return worst;
-}
-
 }  // namespace prodomos::evaluation

@@ -44,7 +44,4 @@ struct Measure {
 /// Those of which the worst building is named; of all, more is better.
 const std::vector<Measure>& comparedMeasures();
 
-/// Index of the least; none where nobody has the measure.
-std::optional<std::size_t> worstOf(const std::vector<PredictionScore>& scores, const Measure& measure);
-
 }  // namespace prodomos::evaluation

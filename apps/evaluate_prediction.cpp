@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prodomos/base/error.hpp"
+#include "prodomos/evaluation/prediction.hpp"
+#include "prodomos/map/map_view.hpp"
+
+#include "evaluate_kinds.hpp"
+#include "prediction_table.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <iostream>
+#include <numbers>
+
+namespace prodomos::apps {
+
+namespace {
+
+using evaluation::PredictionScore;
+using nlohmann::json;
+
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+
+/// A measure that cannot be taken is null.
+json measure(std::optional<double> value) {
+  return value ? json(*value) : json(nullptr);
+}
+
+json errorsOf(std::vector<double> errors, double unit = 1.0) {
+  if (errors.empty()) return nullptr;
+  for (double& error : errors) error *= unit;
+  return toJson(evaluation::statisticsOf(std::move(errors)));
+}
+
+json toJson(const evaluation::DetectionCounts& counts) {
+  return {{"recall", measure(counts.all.recall())},
+          {"recall_image", measure(counts.images ? counts.images->recall() : std::nullopt)},
+          {"recall_visible", measure(counts.visible.recall())},
+          {"recall_passed", measure(counts.passed.recall())},
+          {"precision", measure(counts.precision())},
+          {"truth", counts.all.truth},
+          {"truth_visible", counts.visible.truth},
+          {"truth_passed", counts.passed.truth},
+          {"right", counts.right},
+          {"wrong", counts.wrong}};
+}
+
+json toJson(const evaluation::DoorScore& score) {
+  json out = toJson(score.counts);
+  out["centre_m"] = errorsOf(score.centre);
+  out["normal_deg"] = errorsOf(score.normal, kDegreesPerRadian);
+  out["width_m"] = errorsOf(score.width);
+  out["height_m"] = errorsOf(score.height);
+  out["hinge_side_right"] = measure(score.hingeSides.recall());
+  out["state_right"] = measure(score.states.recall());
+  return out;
+}
+
+json toJson(const evaluation::StairsScore& score) {
+  json out = toJson(score.counts);
+  out["foot_m"] = errorsOf(score.foot);
+  out["direction_deg"] = errorsOf(score.direction, kDegreesPerRadian);
+  out["width_m"] = errorsOf(score.width);
+  out["height_m"] = errorsOf(score.height);
+  return out;
+}
+
+json toJson(const evaluation::NodeScore& score) {
+  return {{"precision", measure(score.precision())},
+          {"recall", measure(score.behindVisible.recall())},
+          {"recall_adjacent", measure(score.adjacent.recall())},
+          {"right", score.right},
+          {"wrong", score.wrong},
+          {"unseen_rooms", score.behindVisible.truth},
+          {"unseen_rooms_adjacent", score.adjacent.truth}};
+}
+
+json toJson(const evaluation::FreeSpaceScore& score) {
+  json out = json::object();
+  for (std::size_t i = 0; i < score.levels.size(); ++i) {
+    const auto& level = score.levels[i];
+    json at = json::object();
+    for (const auto mobility : {map::Mobility::kStatic, map::Mobility::kQuasiStatic, map::Mobility::kDynamic}) {
+      const auto& counts = level.byMobility[static_cast<std::size_t>(mobility)];
+      at[std::string(toString(mobility))] = measure(counts.precision());
+    }
+    at["overall"] = measure(level.overall().precision());
+    at["overall_furnished"] = measure(level.overall().furnishedPrecision());
+    at["half_disc_equal_area"] = measure(level.halfDiscPrecision());
+    at["area_gain_percent"] = measure(score.areaGainPercent(i));
+    at["area_per_door_m2"] = measure(level.areaPerDoor());
+    out[fixed(evaluation::kThresholds[i], 1)] = at;
+  }
+  return out;
+}
+
+json toJson(const evaluation::RoomScore& score) {
+  return {{"all", measure(score.all())},
+          {"up_to_60_m2", measure(score.ordinary())},
+          {"half_disc_equal_area", measure(score.halfDiscEqualArea())},
+          {"half_disc_best", measure(score.halfDiscBest())},
+          {"fixed_box", measure(score.fixedBox())},
+          {"clipped_box", measure(score.clippedBox())},
+          {"oracle_box", measure(score.oracleBox())},
+          {"rooms", score.shapes.size()},
+          {"rooms_up_to_60_m2", score.ordinaryCount()},
+          {"doors", score.doors.truth},
+          {"doors_predicted", score.doors.found}};
+}
+
+json toJson(const std::vector<evaluation::Bet>& bets) {
+  const auto calibration = evaluation::calibrationOf(bets);
+  if (!calibration) return {{"ece", nullptr}, {"brier", nullptr}, {"brier_skill", nullptr}, {"bins", nullptr}};
+  json bins = json::array();
+  for (const auto& bin : calibration->bins) {
+    const auto ifAny = [&bin](double value) { return bin.count == 0 ? json(nullptr) : json(value); };
+    bins.push_back({{"from", bin.from},
+                    {"to", bin.to},
+                    {"count", bin.count},
+                    {"mean_probability", ifAny(bin.meanProbability)},
+                    {"frequency", ifAny(bin.frequency)}});
+  }
+  return {{"ece", calibration->expectedError},
+          {"brier", calibration->brier},
+          {"brier_skill", measure(calibration->brierSkill)},
+          {"base_rate", calibration->baseRate},
+          {"count", calibration->count},
+          {"bins", bins}};
+}
+
+json toJson(const PredictionScore& score) {
+  return {{"doors", toJson(score.doors)},          {"doorways", toJson(score.doorways)},
+          {"stairs", toJson(score.stairs)},        {"nodes", toJson(score.nodes)},
+          {"free_space", toJson(score.freeSpace)}, {"room_iou", toJson(score.rooms)},
+          {"calibration", toJson(score.bets)}};
+}
+
+/// By measure the building that has the least of it.
+json worstBuildings(const std::vector<ScoredMap>& maps) {
+  json worst = json::object();
+  for (const auto& compared : evaluation::comparedMeasures()) {
+    const auto* map = findWorst(maps, compared);
+    worst[compared.name] = nullptr;
+    if (map == nullptr) continue;
+    worst[compared.name] = {{"building", map->building}, {"map", map->map}, {"value", *compared.value(map->score)}};
+  }
+  return worst;
+}
+
+json reportOf(const PredictionScore& pooled, const std::vector<ScoredMap>& maps) {
+  json report = toJson(pooled);
+  report["worst"] = worstBuildings(maps);
+  report["buildings"] = json::array();
+  for (const auto& map : maps) {
+    json building = toJson(map.score);
+    building["building"] = map.building;
+    building["map"] = map.map;
+    report["buildings"].push_back(building);
+  }
+  return report;
+}
+
+ScoredMap scoreMap(const MapAndTruth& pair) {
+  const auto truth = evaluation::readTruth(pair.truth);
+  try {
+    return {pair.map, truth.building, evaluation::scorePrediction(map::MapView::open(pair.map), truth)};
+  } catch (const base::FileError&) {
+    throw;
+  } catch (const base::Error& fault) {
+    throw base::FileError(pair.map + ", " + pair.truth + ": " + fault.what());
+  }
+}
+
+void evaluatePrediction(const EvaluateOptions& options) {
+  std::vector<ScoredMap> maps;
+  PredictionScore pooled;
+  for (const auto& pair : mapsAndTruths(options)) {
+    maps.push_back(scoreMap(pair));
+    pooled += maps.back().score;
+  }
+  if (options.json) {
+    std::cout << reportOf(pooled, maps).dump(2) << '\n';
+  } else {
+    printTable(pooled, maps);
+  }
+}
+
+void addPrediction(CLI::App& kind, EvaluateOptions& /*options*/) {
+  kind.footer(
+      "Doors, stairs, predicted rooms and predicted free floor, as paper 002 counts them and beyond "
+      "(docs/evaluation.md).\n"
+      "Examples:\n"
+      "  prodomos evaluate prediction office.prodomos --truth office.truth.json\n"
+      "  prodomos evaluate prediction test/*.prodomos --json | jq .room_iou");
+}
+
+}  // namespace
+
+constexpr Kind kPrediction = {"prediction", "doors, stairs, predicted rooms and free floor against the truth of a log",
+                              addPrediction, evaluatePrediction, true};
+
+}  // namespace prodomos::apps
