@@ -69,7 +69,7 @@ Eigen::AlignedBox2d wellAround(const StoreyMesh& mesh, const Flight& flight) {
 void addWell(StoreyMesh& mesh, const Eigen::AlignedBox2d& plan, double lid_z, double open_z) {
   const double bottom = std::min(lid_z, open_z);
   const Eigen::Vector3d up(0.0, 0.0, std::abs(open_z - lid_z));
-  Surface walls{.material = {.color = {222, 221, 215}}, .classId = classId("wall")};
+  Surface walls = emptySurface(mesh, "wall");
   const Polygon corners = cornersOf(plan);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const auto& from = corners[(i + 1) % corners.size()];
@@ -77,7 +77,7 @@ void addWell(StoreyMesh& mesh, const Eigen::AlignedBox2d& plan, double lid_z, do
     addRectangle(walls, {from.x(), from.y(), bottom}, {along.x(), along.y(), 0.0}, up);
   }
   const bool isCeiling = lid_z > open_z;
-  Surface lid{.material = {.color = {205, 205, 200}}, .classId = classId(isCeiling ? "ceiling" : "floor")};
+  Surface lid = emptySurface(mesh, isCeiling ? "ceiling" : "floor");
   const Eigen::Vector3d x(plan.sizes().x(), 0.0, 0.0);
   const Eigen::Vector3d y(0.0, plan.sizes().y(), 0.0);
   addRectangle(lid, {plan.min().x(), plan.min().y(), lid_z}, isCeiling ? y : x, isCeiling ? x : y);
@@ -116,7 +116,7 @@ void openLanding(StoreyMesh& upper, const Flight& flight, std::vector<std::strin
             {"wall", "handrail", "skirting", "sign"});
     addFloor(upper, gap);
     // The wall is hollow: its end is closed.
-    Surface cap{.material = {.color = {222, 221, 215}}, .classId = classId("wall")};
+    Surface cap = emptySurface(upper, "wall");
     const Eigen::Vector2d corner = middle - uphill * opening / 2.0 + aside * face;
     const Eigen::Vector2d across = aside * thickness;
     addRectangle(cap, {corner.x(), corner.y(), upper.floor_z()}, {across.x(), across.y(), 0.0},

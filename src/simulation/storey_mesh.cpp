@@ -69,6 +69,28 @@ Surface placed(const geometry::Pose3& T_world_model, Surface surface) {
   return transformed(T_world_model, std::move(surface));
 }
 
+/// Of the texture in the middles of the surface's triangles, by their areas: for what is added in its style.
+sensors::Rgb meanColor(const Surface& surface, const sensors::Image<sensors::Rgb>& texture) {
+  const auto pixel = [](float coordinate, int size) {
+    const auto share = static_cast<double>(coordinate - std::floor(coordinate));
+    return std::min(static_cast<int>(share * size), size - 1);
+  };
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double areas = 0.0;
+  for (const auto& [a, b, c] : surface.triangles) {
+    const auto& v = surface.vertices;
+    const auto area = static_cast<double>((v[b] - v[a]).cross(v[c] - v[a]).norm());
+    const auto& uv = surface.textureCoordinates;
+    const Eigen::Vector2f middle = (uv[a] + uv[b] + uv[c]) / 3.0F;
+    const auto& color = texture(pixel(middle.x(), texture.width()), pixel(1.0F - middle.y(), texture.height()));
+    sum += area * Eigen::Vector3d(color.r, color.g, color.b);
+    areas += area;
+  }
+  const Eigen::Vector3d mean = areas > 0.0 ? Eigen::Vector3d(sum / areas) : Eigen::Vector3d::Constant(200.0);
+  return {static_cast<std::uint8_t>(mean.x()), static_cast<std::uint8_t>(mean.y()),
+          static_cast<std::uint8_t>(mean.z())};
+}
+
 /// Reads each mesh and each texture once, however many storeys show it.
 class MeshStore {
  public:
@@ -99,9 +121,11 @@ class MeshStore {
     Surface surface = std::move(part.surface);
     surface.classId = classId(kind.className);
     surface.material = kind.fallback;
-    if (const auto texture = textureOf(part.texture)) {
+    const auto texture = textureOf(part.texture);
+    if (texture && !surface.textureCoordinates.empty()) {
       surface.material.pattern = Pattern::kImage;
       surface.material.texture = *texture;
+      surface.material.color = meanColor(surface, building_.textures[static_cast<std::size_t>(*texture)]);
     } else {
       // Patterns want metres: floors have theirs seen from above, all others are plain.
       surface.textureCoordinates.clear();
@@ -241,10 +265,16 @@ bool hasFloorAt(const StoreyMesh& mesh, const Eigen::Vector2d& point) {
   return false;
 }
 
+Surface emptySurface(const StoreyMesh& mesh, std::string_view className) {
+  const auto like = std::ranges::find(mesh.surfaces, classId(className), &Surface::classId);
+  Surface empty{.classId = classId(className)};
+  if (like != mesh.surfaces.end()) empty.material = like->material;
+  if (empty.material.pattern == Pattern::kImage) empty.material.pattern = Pattern::kPlain;
+  return empty;
+}
+
 void addFloor(StoreyMesh& mesh, const Eigen::AlignedBox2d& plan) {
-  const auto floor = std::ranges::find(mesh.surfaces, classId("floor"), &Surface::classId);
-  Surface added{.material = floor->material, .classId = floor->classId};
-  if (added.material.pattern == Pattern::kImage) added.material.pattern = Pattern::kPlain;
+  Surface added = emptySurface(mesh, "floor");
   addRectangle(added, {plan.min().x(), plan.min().y(), mesh.floor_z()}, {plan.sizes().x(), 0.0, 0.0},
                {0.0, plan.sizes().y(), 0.0});
   // As on the rest: metres from the model's origin.

@@ -38,11 +38,14 @@ struct StoreyMeshes {
 /// ends in _floor, _walls or _ceiling has no mesh, and where there is no floor or a storey has no walls.
 StoreyMeshes readStoreyMeshes(const GazeboWorld& world, const std::filesystem::path& path, Building& building);
 
-/// What of the storey belongs to the class, as one surface of its material, or as segments of a level cut.
+/// A level cut through all that belongs to the class, `height` above the floor.
 std::vector<Segment> sliceOf(const StoreyMesh& mesh, std::string_view className, double height);
 
 /// Does a floor lie at the storey's level at this point?
 bool hasFloorAt(const StoreyMesh& mesh, const Eigen::Vector2d& point);
+
+/// To be filled with what is added in the style of that class; images are plain colours in it.
+Surface emptySurface(const StoreyMesh& mesh, std::string_view className);
 
 /// A rectangle of floor at the storey's level, looking like the rest of it.
 void addFloor(StoreyMesh& mesh, const Eigen::AlignedBox2d& plan);

@@ -3,9 +3,9 @@
 #include "prodomos/simulation/world_file.hpp"
 
 #include "prodomos/base/error.hpp"
-#include "prodomos/base/random.hpp"
 
 #include "simulation/door_frames.hpp"
+#include "simulation/door_swings.hpp"
 #include "simulation/gazebo_world.hpp"
 #include "simulation/lift_portals.hpp"
 #include "simulation/room_outlines.hpp"
@@ -365,27 +365,16 @@ class WorldReader {
     return signedArea(outline) > 3.0 * length / 2.0;
   }
 
-  /// The x-axis points from the room with more doors into the other one; states, hinges and sides by seed.
+  /// The x-axis points from the room with more doors into the other one; leaves and states as in other buildings.
   void setDoors() {
-    base::Random random(options_.seed, "doors of a world");
     for (auto& door : building_.doors) {
-      const double chance = random.uniform();
-      const double ajar = random.uniform(15.0, 50.0);
-      const double open = random.uniform(75.0, 95.0);
-      const bool hingesLeft = random.uniform() < 0.5;
-      const bool opensIntoRoom = random.uniform() < 0.85;
-      if (building_.rooms.empty() || simulation::isLiftDoor(building_, door)) continue;
-      if (door.rooms[0] == kOutside || (door.rooms[1] != kOutside && doorsOf(door.rooms[1]) > doorsOf(door.rooms[0]))) {
-        std::swap(door.rooms[0], door.rooms[1]);
-        door.pose.theta = geometry::normalizeAngle(door.pose.theta + std::numbers::pi);
-      }
-      door.hingeSide = door.leaves == 2 ? map::HingeSide::kUnknown
-                       : hingesLeft     ? map::HingeSide::kLeft
-                                        : map::HingeSide::kRight;
-      door.opensAlongNormal = opensIntoRoom;
-      const double degrees = chance < 0.65 ? 0.0 : chance < 0.83 ? ajar : open;
-      if (degrees > 0.0) door.swings = {{0.0, degrees * std::numbers::pi / 180.0}};
+      const bool endsOutside = door.rooms[1] == kOutside;
+      if (door.rooms[0] != kOutside && (endsOutside || doorsOf(door.rooms[0]) >= doorsOf(door.rooms[1]))) continue;
+      std::swap(door.rooms[0], door.rooms[1]);
+      door.pose.theta = geometry::normalizeAngle(door.pose.theta + std::numbers::pi);
     }
+    hangLeaves(options_.seed, building_);
+    setDoorStates(options_.seed, building_);
   }
 
   std::filesystem::path path_;
