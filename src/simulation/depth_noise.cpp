@@ -52,24 +52,23 @@ Image<float> sharedNoise(int width, int height, int window, const PixelNoise& no
   return shared;
 }
 
-/// A device's own distortion: smooth waves of many lengths, and upright bands as these devices have. It is worked out
-/// at every eighth pixel.
+/// A device's own distortion: smooth waves of many lengths, worked out at every eighth pixel.
 class Warp {
  public:
   Warp(int width, int height, const DepthNoise& noise)
       : columns_(width / kStep + 2), rows_(height / kStep + 2), steps_(static_cast<std::size_t>(columns_ * rows_)) {
     base::Random random(noise.device, "depth warp");
     for (int wave = 0; wave < kWaves; ++wave) {
-      // Lengths from a fifth of the picture to twice its width; the longer, the higher.
-      const double length = width * std::pow(10.0, random.uniform(-0.7, 0.3));
+      // Lengths from an eighth of the picture's width to all of it.
+      const double length = width * std::pow(8.0, random.uniform(-1.0, 0.0));
       const double direction = random.uniform(0.0, 2.0 * std::numbers::pi);
       const double phase = random.uniform(0.0, 2.0 * std::numbers::pi);
-      const double height4 = noise.warp * std::sqrt(length / (0.5 * width)) * std::sqrt(2.0 / kWaves);
+      const double amplitude = noise.warp * std::sqrt(2.0 / kWaves);
       const double turn = 2.0 * std::numbers::pi * kStep / length;
       for (int row = 0; row < rows_; ++row) {
         for (int column = 0; column < columns_; ++column) {
           const double along = column * std::cos(direction) + row * std::sin(direction);
-          at(column, row) += static_cast<float>(height4 * std::sin(turn * along + phase));
+          at(column, row) += static_cast<float>(amplitude * std::sin(turn * along + phase));
         }
       }
     }
@@ -202,7 +201,8 @@ class Measurement {
     const float exact = disparity(at.x, at.y);
     if (exact <= 0.0F || isLost(at, lossNoise_(x, y))) return 0.0F;
     const float error = static_cast<float>(noise_.disparitySigma) * disparityNoise_(x, y) + warp_(x, y);
-    const float step = std::floor(exact + error + 0.5F);
+    const auto offset = static_cast<float>(noise_.stepOffset);
+    const float step = std::floor(exact + error - offset + 0.5F) + offset;
     if (step <= 0.0F) return 0.0F;
     const float z = stepsMetres_ / step;
     if (z < static_cast<float>(noise_.leastRange) || z > static_cast<float>(noise_.mostRange)) return 0.0F;

@@ -17,13 +17,14 @@ namespace prodomos::simulation {
 struct DepthNoise {
   double leastRange = 0.5;       ///< metres; nothing is measured nearer
   double mostRange = 5.0;        ///< metres; nor farther
-  double focalLength = 575.8;    ///< of the infrared camera, pixels
+  double focalLength = 570.3;    ///< of the infrared camera, pixels
   double baseline = 0.075;       ///< from the camera to the projector on its right, metres
   double stepsPerPixel = 8.0;    ///< of disparity
-  double disparitySigma = 0.40;  ///< of one measurement, steps
+  double stepOffset = -0.33;     ///< of the steps from whole disparities: a step n is a disparity of n + this
+  double disparitySigma = 0.38;  ///< of one measurement, steps
   int window = 7;                ///< pixels that share their error: those of the correlation window
   double lateralSigma = 0.8;     ///< of where a pixel looks, pixels (Nguyen et al. 2012)
-  double warp = 0.4;             ///< of the device's own distortion over a quarter of the picture, steps
+  double warp = 0.30;            ///< rms of the device's own distortion over a picture, steps
   std::uint64_t device = 1;      ///< seed of that distortion: one device has the same one in all pictures
   double leastSignal = 0.004;    ///< light that must come back: 1 from white paper, straight on, at one metre
   double mostSignal = 6.0;       ///< above it the projector glares
