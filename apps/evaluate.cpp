@@ -196,7 +196,8 @@ constexpr Kind kRelations = {"relations", "the way against true relations betwee
                              evaluateRelations};
 constexpr Kind kTrajectory = {"trajectory", "the way against true poses", addTrajectory, evaluateTrajectory};
 
-constexpr std::array kKinds = {&kRelations, &kTrajectory, &kPrediction};
+constexpr std::array kKinds = {&kRelations, &kTrajectory, &kPrediction, &kNoise,
+                               &kLabels,    &kPlanes,     &kObjects,    &kHumans};
 
 void addCommonOptions(CLI::App& kind, EvaluateOptions& options, bool againstTruthFiles) {
   if (!againstTruthFiles) {

@@ -22,6 +22,8 @@ struct EvaluateOptions {
   std::string html;                 ///< where to write the page; empty: none
   std::string frame = "auto";       ///< of the truth's poses
   double delta = 1.0;               ///< seconds
+  int leastPixels = 1000;           ///< of a person that counts
+  double range = 5.0;               ///< metres to a person that counts
 };
 
 /// What can be scored.
@@ -35,6 +37,11 @@ struct Kind {
 };
 
 extern const Kind kPrediction;  // evaluate_prediction.cpp
+extern const Kind kNoise;       // evaluate_scores.cpp
+extern const Kind kLabels;
+extern const Kind kPlanes;
+extern const Kind kObjects;
+extern const Kind kHumans;
 
 /// A map and the truth of its log.
 struct MapAndTruth {
