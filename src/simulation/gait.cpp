@@ -22,15 +22,15 @@ constexpr double kSmoothing = 0.3;
 constexpr double kWalkRatio = 0.384;
 constexpr double kMeanHeight = 1.72;
 /// What can be turned in passing; beyond it, each step turns as much.
-constexpr double kTurnPerStep = 60.0 * kDegree;
+constexpr double kTurnPerStep = 90.0 * kDegree;
 
 /// A step's share before its foot leaves the floor, and after it is down again.
 constexpr double kDoubleSupport = 0.1;
 /// A foot's n-th step sets it down for the steps n + 0.9 to n + 2.1. It stands a little behind the body's way, since
 /// its ankle goes ahead while the heel rises.
-constexpr double kMiddleOfStance = 1.46;
+constexpr double kMiddleOfStance = 1.40;
 constexpr double kHeelStrike = 16.0 * kDegree;
-constexpr double kToeOff = 45.0 * kDegree;
+constexpr double kToeOff = 50.0 * kDegree;
 constexpr double kToesOut = 7.0 * kDegree;
 /// Lengths of a person of 1 m: from the middle to the ankle, from the ankle back to the heel and ahead to the ball.
 constexpr double kHalfTrack = 0.042;
@@ -40,6 +40,13 @@ constexpr double kBall = 0.072;
 constexpr double kBehind = 0.008;
 /// A stride (two steps) of this length has the full play of the foot.
 constexpr double kFullStride = 0.75;
+
+constexpr double kStance = 1.0 + 2.0 * kDoubleSupport;  // of a step's duration
+
+/// Which foot takes that step.
+Side sideOf(int step) {
+  return step % 2 == 0 ? kRight : kLeft;
+}
 
 double smoothStep(double from, double to, double x) {
   const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
@@ -58,11 +65,11 @@ geometry::Pose2 between(const geometry::Pose2& a, const geometry::Pose2& b, doub
 /// `before` and `after` are the shares of a full stride that bring it here and away.
 double stancePitch(double progress, double before, double after) {
   return kHeelStrike * before * (1.0 - smoothStep(0.0, 0.08, progress)) -
-         kToeOff * after * smoothStep(0.55, 1.0, progress);
+         kToeOff * after * smoothStep(0.45, 1.0, progress);
 }
 
 double swingPitch(double progress, double share) {
-  return share * (kHeelStrike * smoothStep(0.5, 1.0, progress) - kToeOff * (1.0 - smoothStep(0.0, 0.6, progress)));
+  return share * (kHeelStrike * smoothStep(0.5, 1.0, progress) - kToeOff * (1.0 - smoothStep(0.05, 0.75, progress)));
 }
 
 /// A pitched foot stands on its heel or on its ball.
@@ -143,13 +150,14 @@ void Gait::joinWalks() {
 void Gait::numberSteps(std::size_t firstLeg, std::size_t endLeg) {
   const auto begin = legs_.begin() + static_cast<std::ptrdiff_t>(firstLeg);
   const auto end = legs_.begin() + static_cast<std::ptrdiff_t>(endLeg);
-  double wanted = 0.0;
+  // The first and the last step are half ones: they begin and end beside the other foot.
+  double wanted = 1.0;
   for (auto leg = begin; leg != end; ++leg) wanted += leg->steps;
   Walk walk{.begin = begin->begin - kSmoothing, .end = std::prev(end)->end + kSmoothing};
   walk.firstStep = walks_.empty() ? 0 : walks_.back().endStep;
   walk.endStep = walk.firstStep + std::max(2, static_cast<int>(std::lround(wanted)));
   const double scale = (walk.endStep - walk.firstStep) / wanted;
-  double steps = walk.firstStep;
+  double steps = walk.firstStep + 0.5 * scale;
   for (auto leg = begin; leg != end; ++leg) {
     leg->first[3] = steps + leg->turningSteps * scale;
     steps += leg->steps * scale;
@@ -200,38 +208,41 @@ geometry::Pose2 Gait::footprint(int step) const {
   return poseAt(timeOfStep(*walk, step + kMiddleOfStance));
 }
 
-std::array<Foot, 2> Gait::feetAt(double steps) const {
-  const int step = static_cast<int>(std::floor(steps));
-  const double phase = steps - step;
-  const auto strideShare = [&](const geometry::Pose2& from, const geometry::Pose2& to) {
-    return std::min(distance(from, to) / (kFullStride * height_), 1.0);
-  };
-  const std::array<geometry::Pose2, 5> prints{footprint(step - 3), footprint(step - 2), footprint(step - 1),
-                                              footprint(step), footprint(step + 1)};
-  constexpr double kStance = 1.0 + 2.0 * kDoubleSupport;  // of a step's duration
-  std::array<Foot, 2> feet;
+bool Gait::beginsWalk(int step) const {
+  return std::ranges::binary_search(walks_, step, {}, &Walk::firstStep);
+}
 
-  const Side standing = step % 2 == 0 ? kLeft : kRight;
-  const double progress = (phase + kDoubleSupport) / kStance;
-  feet[standing] =
-      footOn(prints[2], standing,
-             stancePitch(progress, strideShare(prints[0], prints[2]), strideShare(prints[2], prints[4])), 0.0, height_);
+/// Of the two steps that end with it, of a full stride.
+double Gait::strideShare(int step) const {
+  return std::min(distance(footprint(step - 2), footprint(step)) / (kFullStride * height_), 1.0);
+}
 
-  const Side stepping = standing == kLeft ? kRight : kLeft;
-  const double share = strideShare(prints[1], prints[3]);
+/// The foot that carries while the other one takes that step.
+Foot Gait::carryingFoot(int step, double phase) const {
+  // It rests where the next step, its own, begins another walk.
+  const double after = beginsWalk(step + 1) ? 0.0 : strideShare(step + 1);
+  const double pitch = stancePitch((phase + kDoubleSupport) / kStance, strideShare(step - 1), after);
+  return footOn(footprint(step - 1), sideOf(step - 1), pitch, 0.0, height_);
+}
+
+Foot Gait::steppingFoot(int step, double phase) const {
+  const geometry::Pose2 from = footprint(step - 2);
+  const geometry::Pose2 to = footprint(step);
+  const double share = strideShare(step);
   const double swing = std::clamp((phase - kDoubleSupport) / (1.0 - 2.0 * kDoubleSupport), 0.0, 1.0);
   double pitch = swingPitch(swing, share);
-  if (swing == 0.0) {
-    // Out of rest the heel rises within the first step's double support.
-    const bool fromRest = std::ranges::find(walks_, step, &Walk::firstStep) != walks_.end();
-    pitch = fromRest ? -kToeOff * share * smoothStep(0.0, kDoubleSupport, phase)
-                     : stancePitch((phase + 1.0 + kDoubleSupport) / kStance, 0.0, share);
+  if (swing == 0.0 && beginsWalk(step)) {
+    // Out of rest the heel rises within the double support.
+    pitch = -kToeOff * share * smoothStep(0.0, kDoubleSupport, phase);
+  } else if (swing == 0.0) {
+    pitch = stancePitch((phase + 1.0 + kDoubleSupport) / kStance, 0.0, share);
+  } else if (swing == 1.0) {
+    pitch = stancePitch((phase - 1.0 + kDoubleSupport) / kStance, share, 0.0);
   }
-  if (swing == 1.0) pitch = stancePitch((phase - 1.0 + kDoubleSupport) / kStance, share, 0.0);
+  const double way = std::lerp(swing, smoothStep(0.0, 1.0, swing), 0.7);
   const double sine = std::sin(std::numbers::pi * swing);
-  const double lift = distance(prints[1], prints[3]) > 0.0 ? (0.02 + 0.015 * share) * height_ * sine * sine : 0.0;
-  feet[stepping] = footOn(between(prints[1], prints[3], smoothStep(0.0, 1.0, swing)), stepping, pitch, lift, height_);
-  return feet;
+  const double lift = from == to ? 0.0 : (0.02 + 0.015 * share) * height_ * sine * sine;
+  return footOn(between(from, to, way), sideOf(step), pitch, lift, height_);
 }
 
 Stride Gait::at(double time) const {
@@ -242,7 +253,9 @@ Stride Gait::at(double time) const {
       (rawAt(time + kSmoothing) - rawAt(time - kSmoothing)).head<2>() / ((time + kSmoothing) - (time - kSmoothing));
   stride.steps = progress[3];
   stride.stepLength = progress[4];
-  stride.feet = feetAt(progress[3]);
+  const int step = static_cast<int>(std::floor(stride.steps));
+  stride.feet[sideOf(step)] = steppingFoot(step, stride.steps - step);
+  stride.feet[sideOf(step - 1)] = carryingFoot(step, stride.steps - step);
   return stride;
 }
 

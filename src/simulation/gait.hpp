@@ -76,7 +76,10 @@ class Gait {
   geometry::Pose2 poseAt(double time) const;
   double timeOfStep(const Walk& walk, double steps) const;
   geometry::Pose2 footprint(int step) const;
-  std::array<Foot, 2> feetAt(double steps) const;
+  bool beginsWalk(int step) const;
+  double strideShare(int step) const;
+  Foot carryingFoot(int step, double phase) const;
+  Foot steppingFoot(int step, double phase) const;
 
   double height_;
   std::vector<Leg> legs_;

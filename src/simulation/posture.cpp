@@ -18,10 +18,13 @@ using geometry::Pose3;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kDegree = kPi / 180.0;
-/// Length of a step that swings arms and hips as below, as a share of height.
+/// Length of a step, and speed, that swing arms and hips as below; as shares of height.
 constexpr double kPlainStep = 0.39;
+constexpr double kPlainSpeed = 0.65;  // 1/s
 /// Knees are never quite straight.
 constexpr double kLegReach = 0.994;
+/// In steps: the hips are lowest a little before both feet carry.
+constexpr double kBobPhase = 0.07;
 
 /// Angles of an arm in the chest's frame, radians.
 struct ArmAngles {
@@ -123,21 +126,22 @@ void addSpine(Posture& posture, const Eigen::Matrix3d& R_pelvis_chest, const Eig
   posture.T_floor_head.translation() = posture.T_floor_chest.translation();
 }
 
-/// The hips are as high as both legs reach, a little lower where both are stretched.
-double hipHeight(const Posture& posture, double height) {
-  constexpr double kSoftness = 0.008;  // metres
+/// The hips swing up and down once a step, highest over the leg that carries; no higher than both legs reach.
+double hipHeight(const Posture& posture, double vigour, double steps, double height) {
+  constexpr double kSoftness = 0.012;  // metres
   const double length = kLegReach * (kProportions.thigh + kProportions.shank) * height;
   const double upright = kProportions.ankleHeight * height + length;
-  double sum = 0.0;
+  const double bob = 0.0125 * height * std::min(vigour, 1.0) * (1.0 + std::cos(2.0 * kPi * (steps + kBobPhase)));
+  double sum = std::exp(bob / kSoftness);
   for (const Side side : kSides) {
     const Vector3d hip_in_pelvis = hip(posture, side, height);
     const Vector3d foot = ankle(posture.feet[side], height);
     const double aside = (foot - hip_in_pelvis).head<2>().norm();
     const double above = std::sqrt(std::max(length * length - aside * aside, 0.25 * length * length));
     const double level = hip_in_pelvis.z() - posture.T_floor_pelvis.translation().z();
-    sum += std::exp(-(std::min(foot.z() + above - level - upright, 0.05)) / kSoftness);
+    sum += std::exp((upright - std::min(foot.z() + above - level, upright + 0.1)) / kSoftness);
   }
-  return upright - kSoftness * std::log(sum + 1.0);
+  return upright - kSoftness * std::log(sum);
 }
 
 ArmAngles standingArm(const Manner& manner, Side side) {
@@ -160,7 +164,9 @@ Posture uprightPosture(const Person& person, double time) {
   const Manner manner(person.look);
   const Stride stride = Gait(person).at(time);
   const double height = person.height;
-  const double vigour = std::min(stride.stepLength / (kPlainStep * height), 1.4);
+  // Who turns back on the spot takes steps, but does not swing.
+  const double vigour =
+      std::min({stride.stepLength / (kPlainStep * height), stride.velocity.norm() / (kPlainSpeed * height), 1.4});
   const double rest = std::max(1.0 - vigour, 0.0);
   const double swing = std::cos(kPi * stride.steps);
   const double weight = std::sin(kPi * stride.steps);  // +1 on the left foot
@@ -170,7 +176,7 @@ Posture uprightPosture(const Person& person, double time) {
   posture.T_floor_pelvis = geometry::toPose3(stride.pose * geometry::Pose2{0.0, sway * height, 0.0});
   posture.T_floor_pelvis.rotate(AngleAxisd(-5.0 * kDegree * vigour * swing, Vector3d::UnitZ()) *
                                 AngleAxisd(2.5 * kDegree * vigour * weight, Vector3d::UnitX()));
-  posture.T_floor_pelvis.translation().z() = hipHeight(posture, height);
+  posture.T_floor_pelvis.translation().z() = hipHeight(posture, vigour, stride.steps, height);
 
   const double twist = (7.0 * vigour * swing + 3.0 * rest * manner.unrest(1, time)) * kDegree;
   const double lean = (1.0 + 2.0 * vigour) * kDegree;
