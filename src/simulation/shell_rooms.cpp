@@ -5,6 +5,9 @@
 #include "simulation/shell_parts.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace prodomos::simulation {
@@ -41,6 +44,24 @@ std::vector<Hole> holesIn(const Building& building, const Level& level, std::siz
   }
   std::ranges::sort(holes, {}, &Hole::from);
   return holes;
+}
+
+/// Where stairs leave no floor along an edge: nothing for a skirting to stand on.
+std::vector<std::array<double, 2>> floorGaps(const Level& level, const Edge& edge) {
+  constexpr double kNear = 0.3;
+  std::vector<std::array<double, 2>> gaps;
+  for (const auto& hole : level.floorHoles) {
+    double from = edge.length();
+    double to = 0.0;
+    for (const auto& corner : hole) {
+      if (std::abs((corner - edge.from).dot(edge.outward())) > kNear) continue;
+      const double along = (corner - edge.from).dot(edge.direction());
+      from = std::min(from, along);
+      to = std::max(to, along);
+    }
+    if (from < to) gaps.push_back({from, to});
+  }
+  return gaps;
 }
 
 /// The face of a wall along an edge of a room's outline, seen from inside.
@@ -109,17 +130,22 @@ void addWalls(const Building& building, const Level& level, const HouseLook& loo
       face.add(lower, {from, to}, {bottom, split});
       face.add(upper, {from, to}, {std::max(bottom, split), level.ceilingHeight});
     };
-    double wallFrom = 0.0;
-    double skirtingFrom = 0.0;
+    double from = 0.0;
+    auto gaps = floorGaps(level, edge);
     for (const Hole& hole : holesIn(building, level, i, look)) {
-      addPiece(wallFrom, hole.from, 0.0);
+      addPiece(from, hole.from, 0.0);
       addPiece(hole.from, hole.to, hole.height);
-      face.addSkirting(skirting, skirtingFrom, hole.from - hole.frameWidth, look.skirtingHeight());
-      wallFrom = hole.to;
-      skirtingFrom = hole.to + hole.frameWidth;
+      gaps.push_back({hole.from - hole.frameWidth, hole.to + hole.frameWidth});
+      from = hole.to;
     }
-    addPiece(wallFrom, edge.length(), 0.0);
-    face.addSkirting(skirting, skirtingFrom, edge.length(), look.skirtingHeight());
+    addPiece(from, edge.length(), 0.0);
+    std::ranges::sort(gaps);
+    from = 0.0;
+    for (const auto& gap : gaps) {
+      face.addSkirting(skirting, from, gap[0], look.skirtingHeight());
+      from = std::max(from, gap[1]);
+    }
+    face.addSkirting(skirting, from, edge.length(), look.skirtingHeight());
   }
   surfaces.insert(surfaces.end(), {std::move(upper), std::move(lower), std::move(skirting)});
 }
