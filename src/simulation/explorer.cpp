@@ -4,7 +4,7 @@
 
 #include "prodomos/base/error.hpp"
 
-#include "simulation/leaf_ways.hpp"
+#include "simulation/passing.hpp"
 
 #include <algorithm>
 #include <array>
@@ -66,7 +66,7 @@ bool isCorridorLike(const Building& building, int room, bool hasCorridors) {
   if (hasCorridors) return building.rooms[static_cast<std::size_t>(room)].use == RoomUse::kCorridor;
   const auto doorsOf = [&](int index) {
     return std::ranges::count_if(building.doors, [&](const Door& door) {
-      return joinsRooms(door) && (door.rooms[0] == index || door.rooms[1] == index);
+      return canBePassed(building, door) && (door.rooms[0] == index || door.rooms[1] == index);
     });
   };
   std::ptrdiff_t most = 0;
@@ -207,7 +207,8 @@ bool Explorer::isCorridorWay(std::size_t index) const {
   const auto isCorridor = [&](int room) {
     return building_.rooms[static_cast<std::size_t>(room)].use == RoomUse::kCorridor;
   };
-  return door.leaves == 0 || standsOpen(door) || std::ranges::all_of(door.rooms, isCorridor);
+  return door.leaves == 0 || stateOf(leastAngle(door)) == map::DoorState::kOpen ||
+         std::ranges::all_of(door.rooms, isCorridor);
 }
 
 /// False: there is nothing new in corridors, as far as one comes in them.

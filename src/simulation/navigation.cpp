@@ -3,7 +3,7 @@
 #include "prodomos/simulation/navigation.hpp"
 
 #include "simulation/distance_field.hpp"
-#include "simulation/leaf_ways.hpp"
+#include "simulation/passing.hpp"
 
 #include <algorithm>
 #include <array>
@@ -28,26 +28,26 @@ constexpr double kThreshold = 0.03;
 
 /// Nearer than this beyond its clearance, being near a wall has a price.
 constexpr double kComfort = 0.6;
-constexpr double kPriceAtWall = 4.0;
-constexpr double kPriceOfSwing = 4.0;
+constexpr float kPriceAtWall = 4.0;
+constexpr float kPriceOfSwing = 4.0;
 
 constexpr std::array<CellIndex, 8> kSteps{{{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 
-double stepLength(std::size_t step) {
-  return step % 2 == 0 ? 1.0 : std::numbers::sqrt2;
-}
+constexpr float kDiagonal = std::numbers::sqrt2_v<float>;
+constexpr std::array kStepLengths{1.0F, kDiagonal, 1.0F, kDiagonal, 1.0F, kDiagonal, 1.0F, kDiagonal};
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 /// The least number of cells between two, straight and diagonal steps.
-double octile(CellIndex a, CellIndex b) {
-  const auto [least, most] = std::minmax(std::abs(a.x - b.x), std::abs(a.y - b.y));
-  return most + (std::numbers::sqrt2 - 1.0) * least;
+float octile(CellIndex a, CellIndex b) {
+  const auto [least, most] = std::minmax({std::abs(a.x - b.x), std::abs(a.y - b.y)});
+  return static_cast<float>(most) + (kDiagonal - 1.0F) * static_cast<float>(least);
 }
 
 /// What a search knows of the cells it has come to; tiles, so that a short way in a large building costs little.
 class Reached {
  public:
   struct Entry {
-    float price = std::numeric_limits<float>::infinity();
+    float price = kInfinite;
     std::uint8_t step = 0;  ///< of kSteps, that led here
     bool settled = false;
   };
@@ -115,13 +115,14 @@ FloorGrid::FloorGrid(const Building& building, int storey, double clearance, dou
   width_ = static_cast<int>(std::ceil(cells.x()));
   height_ = static_cast<int>(std::ceil(cells.y()));
   areas_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), kWall);
-  swept_.assign(areas_.size(), 0.0F);
+  prices_.assign(areas_.size(), 1.0F);
   drawRooms(building);
   drawDoors(building);
   drawThings(building);
   drawStairs(building);
   drawLeaves(building);
   distances_ = distancesTo(width_, height_, [&](std::size_t cell) { return areas_[cell] == kWall; });
+  setPrices();
 }
 
 bool FloorGrid::isFree(const Eigen::Vector2d& point) const {
@@ -186,14 +187,13 @@ std::vector<Eigen::Vector2d> FloorGrid::spots(int room, double spacing) const {
   std::vector<Eigen::Vector2d> chosen;
   for (const Cell cell : roomiestFirst(room)) {
     const Eigen::Vector2d point = centre(cell);
-    const auto covers = [&](const Eigen::Vector2d& spot) {
-      const double distance = (spot - point).norm();
-      if (distance < spacing) return true;
-      // What is left along the walls between two spots is seen from both.
-      return distance < 2.0 * spacing && distanceToWalls(point) < kRoomy * distanceToWalls(spot) &&
+    const auto isNear = [&](const Eigen::Vector2d& spot) { return (spot - point).norm() < spacing; };
+    // What is left along the walls between two spots is seen from both.
+    const auto seesAside = [&](const Eigen::Vector2d& spot) {
+      return (spot - point).norm() < 2.0 * spacing && distanceToWalls(point) < kRoomy * distanceToWalls(spot) &&
              isFreeLine(spot, point);
     };
-    if (std::ranges::none_of(chosen, covers)) chosen.push_back(point);
+    if (std::ranges::none_of(chosen, isNear) && std::ranges::none_of(chosen, seesAside)) chosen.push_back(point);
   }
   return chosen;
 }
@@ -209,9 +209,10 @@ std::vector<FloorGrid::Cell> FloorGrid::roomiestFirst(int room) const {
   std::ranges::copy_if(doors_, std::back_inserter(doors), isNear);
   using Candidate = std::tuple<bool, float, Cell>;
   std::vector<Candidate> candidates;
-  // Every second cell is enough to choose from.
-  for (int y = first.y; y <= last.y; y += 2) {
-    for (int x = first.x; x <= last.x; x += 2) {
+  // A few cells are enough to choose from.
+  constexpr int kEvery = 3;
+  for (int y = first.y; y <= last.y; y += kEvery) {
+    for (int x = first.x; x <= last.x; x += kEvery) {
       const Cell cell{x, y};
       if (!isFree(cell, anyDoor) || areas_[index(cell)] != room) continue;
       const bool isBeforeDoor = std::ranges::any_of(
@@ -243,7 +244,7 @@ void FloorGrid::drawRooms(const Building& building) {
 void FloorGrid::drawDoors(const Building& building) {
   for (std::size_t i = 0; i < building.doors.size(); ++i) {
     const auto& door = building.doors[i];
-    if (door.storey != storey_ || !joinsRooms(door)) continue;
+    if (door.storey != storey_ || !canBePassed(building, door)) continue;
     // As deep as the wall and the cells of the faces, which count as wall.
     const double depth = door.wallThickness + 3.0 * resolution_;
     doors_.emplace_back(door.pose.x, door.pose.y);
@@ -271,20 +272,27 @@ void FloorGrid::drawStairs(const Building& building) {
     const Eigen::Vector2d head = headOf(stairs).head<2>();
     fill(rectangle((foot + head) / 2.0, stairs.direction, (head - foot).norm(), stairs.width), kWall);
   }
+  for (const auto& landing : building.landings) {
+    if (landing.lowerStorey == storey_ || landing.lowerStorey + 1 == storey_) fill(landing.outline, kWall);
+  }
 }
 
 void FloorGrid::drawLeaves(const Building& building) {
+  constexpr double kAjar = 5.0 * std::numbers::pi / 180.0;
+  constexpr double kWide = 60.0 * std::numbers::pi / 180.0;
   for (const auto& door : building.doors) {
     if (door.storey != storey_) continue;
-    const bool alwaysOpen = standsOpen(door);
-    // Whoever passes opens it wide.
-    for (const auto& [hinge, edge] : leafLines(door, std::max(leastAngle(door), std::numbers::pi / 2.0))) {
-      if (alwaysOpen) {
+    const double rests = leastAngle(door);
+    const double passed = std::max(rests, passingAngle(building, door));
+    for (const auto& [hinge, edge] : leafLines(building, door, passed)) {
+      if (rests > kWide) {
         drawWall(hinge, edge);
       } else {
         drawSwing(hinge, edge);
       }
     }
+    if (rests < kAjar || rests > kWide) continue;
+    for (const auto& [hinge, edge] : leafLines(building, door, rests)) drawSwing(hinge, edge);
   }
 }
 
@@ -329,7 +337,7 @@ void FloorGrid::drawSwing(const Eigen::Vector2d& hinge, const Eigen::Vector2d& e
       if (!inside({x, y})) continue;
       const Eigen::Vector2d point = centre({x, y});
       const double share = std::clamp((point - hinge).dot(leaf) / leaf.squaredNorm(), 0.0, 1.0);
-      if ((hinge + share * leaf - point).norm() < clearance_) swept_[index({x, y})] = kPriceOfSwing;
+      if ((hinge + share * leaf - point).norm() < clearance_) prices_[index({x, y})] = 1.0F + kPriceOfSwing;
     }
   }
 }
@@ -348,15 +356,21 @@ double FloorGrid::distanceAt(Cell cell) const {
   return std::max(0.0, (static_cast<double>(distances_[index(cell)]) - 1.0) * resolution_);
 }
 
-bool FloorGrid::isFree(Cell cell, const DoorFilter& mayPass) const {
-  if (!inside(cell) || distanceAt(cell) < clearance_) return false;
-  const auto area = areas_[index(cell)];
-  return area < firstDoor_ || mayPass(static_cast<std::size_t>(area - firstDoor_));
+/// Of being near a wall, and infinite where the body would touch it.
+void FloorGrid::setPrices() {
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      const double room = distanceAt({x, y}) - clearance_;
+      const auto crowding = static_cast<float>(std::max(0.0, 1.0 - room / kComfort));
+      prices_[index({x, y})] += room < 0.0 ? kInfinite : kPriceAtWall * crowding * crowding;
+    }
+  }
 }
 
-double FloorGrid::priceAt(Cell cell) const {
-  const double crowding = std::max(0.0, 1.0 - (distanceAt(cell) - clearance_) / kComfort);
-  return 1.0 + kPriceAtWall * crowding * crowding + static_cast<double>(swept_[index(cell)]);
+bool FloorGrid::isFree(Cell cell, const DoorFilter& mayPass) const {
+  if (!inside(cell) || prices_[index(cell)] == kInfinite) return false;
+  const auto area = areas_[index(cell)];
+  return area < firstDoor_ || mayPass(static_cast<std::size_t>(area - firstDoor_));
 }
 
 std::optional<double> FloorGrid::priceOfLine(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
@@ -366,7 +380,7 @@ std::optional<double> FloorGrid::priceOfLine(const Eigen::Vector2d& a, const Eig
   for (int i = 0; i <= pieces; ++i) {
     const Cell cell = cellAt(a + (b - a) * i / pieces);
     if (!isFree(cell, mayPass)) return std::nullopt;
-    if (i > 0) sum += priceAt(cell);
+    if (i > 0) sum += static_cast<double>(prices_[index(cell)]);
   }
   return sum / pieces * (b - a).norm();
 }
@@ -389,10 +403,10 @@ std::vector<FloorGrid::Cell> FloorGrid::cheapestCells(Cell from, Cell to, const 
       const Cell next{cell.x + kSteps[step].x, cell.y + kSteps[step].y};
       if (!isFree(next, mayPass)) continue;
       auto& there = reached[next];
-      const float price = here.price + static_cast<float>(stepLength(step) * priceAt(next));
+      const float price = here.price + kStepLengths[step] * prices_[index(next)];
       if (price >= there.price) continue;
       there = {.price = price, .step = static_cast<std::uint8_t>(step)};
-      queue.emplace(price + static_cast<float>(octile(next, to)), next);
+      queue.emplace(price + octile(next, to), next);
     }
   }
   if (!reached[to].settled) return {};

@@ -5,7 +5,7 @@
 #include "prodomos/base/random.hpp"
 #include "prodomos/simulation/navigation.hpp"
 
-#include "simulation/leaf_ways.hpp"
+#include "simulation/passing.hpp"
 #include "simulation/roadmap.hpp"
 
 #include <algorithm>
@@ -73,10 +73,11 @@ void openDoors(Building& building, const Person& person, double duration) {
   if (person.sits || person.way.size() < 2) return;
   for (auto& door : building.doors) {
     if (door.storey != person.storey || door.leaves == 0) continue;
+    const double angle = passingAngle(building, door);
     std::optional<double> entered;
     double last = 0.0;
     const auto open = [&] {
-      if (entered) openFor(door, *entered - kOpenBefore, last + kOpenAfter);
+      if (entered) openFor(door, *entered - kOpenBefore, last + kOpenAfter, angle);
       entered.reset();
     };
     for (double time = 0.0; time <= duration; time += kStep) {
@@ -213,11 +214,10 @@ class StoreyPopulation {
 
 }  // namespace
 
-void openFor(Door& door, double from, double to) {
-  constexpr double kWide = std::numbers::pi / 2.0;
+void openFor(Door& door, double from, double to, double angle) {
   const std::vector<Swing> closed{{from - kSwingTime, 0.0}};
   door.swings = greaterOf(door.swings.empty() ? closed : door.swings,
-                          {{from - kSwingTime, 0.0}, {from, kWide}, {to, kWide}, {to + kSwingTime, 0.0}});
+                          {{from - kSwingTime, 0.0}, {from, angle}, {to, angle}, {to + kSwingTime, 0.0}});
 }
 
 Eigen::Vector2d positionAt(const Person& person, double time) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "simulation/roadmap.hpp"
 
-#include "simulation/leaf_ways.hpp"
+#include "simulation/passing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -107,7 +107,7 @@ void Roadmap::addSpots(const Building& building) {
 void Roadmap::addDoors(const Building& building) {
   for (std::size_t i = 0; i < building.doors.size(); ++i) {
     const auto& door = building.doors[i];
-    if (door.storey != grid_.storey() || !joinsRooms(door)) continue;
+    if (door.storey != grid_.storey() || !canBePassed(building, door)) continue;
     const Eigen::Vector2d middle(door.pose.x, door.pose.y);
     const Eigen::Vector2d normal(std::cos(door.pose.theta), std::sin(door.pose.theta));
     const Eigen::Vector2d step = (door.wallThickness / 2.0 + kBeforeDoor) * normal;

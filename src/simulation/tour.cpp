@@ -10,7 +10,7 @@
 #include "simulation/driver.hpp"
 #include "simulation/explorer.hpp"
 #include "simulation/given_path.hpp"
-#include "simulation/leaf_ways.hpp"
+#include "simulation/passing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -108,12 +108,13 @@ void openDoors(Building& building, const std::vector<DrivenPose>& driven, const 
     const bool staysOpen = random.uniform() < kStaysOpen;
     const double hold = random.uniform(0.5, 4.0);
     const bool opensLater = random.uniform() < kOpensLater;
-    if (door.leaves == 0 || !joinsRooms(door)) continue;
+    if (door.leaves == 0 || !canBePassed(building, door)) continue;
+    const double angle = passingAngle(building, door);
     const auto passed = passages(door, driven);
-    for (const auto& [from, to] : passed) openFor(door, from, to + hold);
-    if (!passed.empty() && staysOpen) openFor(door, passed.back().from, options.duration + kSwingTime);
+    for (const auto& [from, to] : passed) openFor(door, from, to + hold, angle);
+    if (!passed.empty() && staysOpen) openFor(door, passed.back().from, options.duration + kSwingTime, angle);
     const auto away = passed.empty() && opensLater ? absence(door, driven) : std::nullopt;
-    if (away) openFor(door, std::midpoint(away->from, away->to), options.duration + kSwingTime);
+    if (away) openFor(door, std::midpoint(away->from, away->to), options.duration + kSwingTime, angle);
   }
 }
 

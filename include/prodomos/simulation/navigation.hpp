@@ -62,6 +62,7 @@ class FloorGrid {
   void drawLeaves(const Building& building);
   void fill(const Polygon& polygon, std::int32_t area);
   void drawWall(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
+  void setPrices();
   void drawSwing(const Eigen::Vector2d& hinge, const Eigen::Vector2d& edge);
 
   bool inside(Cell cell) const { return cell.x >= 0 && cell.y >= 0 && cell.x < width_ && cell.y < height_; }
@@ -73,7 +74,6 @@ class FloorGrid {
   double distanceAt(Cell cell) const;
   std::vector<Cell> roomiestFirst(int room) const;
   bool isFree(Cell cell, const DoorFilter& mayPass) const;
-  double priceAt(Cell cell) const;
   std::optional<double> priceOfLine(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                                     const DoorFilter& mayPass) const;
   std::vector<Cell> cheapestCells(Cell from, Cell to, const DoorFilter& mayPass) const;
@@ -93,7 +93,7 @@ class FloorGrid {
   std::vector<Eigen::Vector2d> doors_;      ///< the middles of all openings
   std::vector<std::int32_t> areas_;         ///< by cell
   std::vector<float> distances_;            ///< of a cell's middle to the nearest wall's, in cells
-  std::vector<float> swept_;                ///< what it costs more to be where a leaf may swing
+  std::vector<float> prices_;               ///< of a metre there; infinite where the body cannot be
 };
 
 }  // namespace prodomos::simulation

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <numbers>
 
 namespace prodomos::simulation {
 
@@ -15,7 +16,7 @@ inline constexpr double kSwingTime = 1.2;
 
 /// Has the door stand open from `from` to `to`: it begins to open kSwingTime before and has closed as long after,
 /// unless it was to be open by then anyway.
-void openFor(Door& door, double from, double to);
+void openFor(Door& door, double from, double to, double angle = std::numbers::pi / 2.0);
 
 /// Where a person is, metres, on its storey's floor.
 Eigen::Vector2d positionAt(const Person& person, double time);
