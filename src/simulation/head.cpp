@@ -47,14 +47,15 @@ std::vector<Ring> ringsOf(const auto& sections) {
 
 /// Hair is a head somewhat larger. Below the hairline it begins behind the face: the head comes through in front.
 std::vector<Section> hairSections(Hair style) {
-  const double thickness = style == Hair::kShaved ? 0.003 : (style == Hair::kShort ? 0.010 : 0.017);
+  const double thickness =
+      style == Hair::kShaved ? 0.003 : (style == Hair::kShort || style == Hair::kPonytail ? 0.010 : 0.016);
   std::vector<Section> sections;
   if (style == Hair::kLong) {
-    sections = {{-0.45, 0.078, -0.050, -0.125},
-                {-0.25, 0.088, -0.020, -0.132},
-                {-0.05, 0.088, 0.005, -0.120},
-                {0.15, 0.086, 0.012, -0.108},
-                {0.32, 0.086, 0.018, -0.104}};
+    sections = {{-0.36, 0.046, -0.055, -0.102},
+                {-0.22, 0.064, -0.035, -0.112},
+                {-0.05, 0.074, 0.000, -0.108},
+                {0.15, 0.079, 0.012, -0.102},
+                {0.32, 0.082, 0.018, -0.102}};
   }
   const double nape = style == Hair::kLong ? 0.4 : 0.2;
   for (const Section& head : kHeadSections) {
@@ -65,6 +66,18 @@ std::vector<Section> hairSections(Hair style) {
         {head.level, head.halfWidth + thickness, covered ? head.face + thickness : hairline, head.nape - thickness});
   }
   return sections;
+}
+
+void addPonytail(Surface& hair) {
+  const auto ring = [](double x, double level, double radius, const Vector3d& along) {
+    const Vector3d side(0.0, -radius, 0.0);
+    return Ring{{x, 0.0, kChin + level * kHeadHeight}, side, along.cross(side).normalized() * 0.8 * radius};
+  };
+  addLoft(hair,
+          {ring(-0.090, 0.62, 0.016, {-1.0, 0.0, 0.1}), ring(-0.118, 0.60, 0.024, {-0.8, 0.0, -0.6}),
+           ring(-0.132, 0.45, 0.030, {-0.2, 0.0, -1.0}), ring(-0.126, 0.15, 0.032, {0.1, 0.0, -1.0}),
+           ring(-0.112, -0.15, 0.022, {0.1, 0.0, -1.0})},
+          8, {0.0, 0.03});
 }
 
 void addNose(Surface& skin) {
@@ -84,6 +97,7 @@ Head headOf(const Look& look) {
   addLoft(head.skin, ringsOf(kHeadSections), kAround, {0.004, 0.007});
   addNose(head.skin);
   addLoft(head.hair, ringsOf(hairSections(look.hair)), kAround, {0.01, 0.008});
+  if (look.hair == Hair::kPonytail) addPonytail(head.hair);
 
   const auto height = [](double level) { return kChin + level * kHeadHeight; };
   for (const double side : {-1.0, 1.0}) {

@@ -73,7 +73,7 @@ Look lookOf(std::uint64_t seed) {
   look.top = static_cast<Top>(random.integer(0, 3));
   const double hair = random.uniform();
   if (look.female) {
-    look.hair = hair < 0.65 ? Hair::kLong : Hair::kFull;
+    look.hair = hair < 0.4 ? Hair::kLong : (hair < 0.75 ? Hair::kPonytail : Hair::kFull);
   } else {
     look.hair = hair < 0.6 ? Hair::kShort : (hair < 0.85 ? Hair::kFull : Hair::kShaved);
   }

@@ -9,7 +9,7 @@
 namespace prodomos::simulation {
 
 enum class Top { kTShirt, kShirt, kSweater, kJacket };
-enum class Hair { kShort, kFull, kLong, kShaved };
+enum class Hair { kShort, kFull, kLong, kPonytail, kShaved };
 
 /// What a person looks like, other than its height.
 struct Look {
