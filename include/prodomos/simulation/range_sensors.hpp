@@ -17,7 +17,7 @@ struct RangeNoise {
   double sigma = 0.01;        ///< of a range, metres
   double leastRange = 0.1;    ///< metres; what is nearer says nothing
   double maxRange = 30.0;     ///< metres
-  double leastSignal = 1e-4;  ///< that must come back: infrared share · cosine / range², range in metres
+  double leastSignal = 5e-4;  ///< that must come back: infrared share · cosine / range², range in metres
   double missing = 0.002;     ///< share of beams that are lost without a cause
 };
 
@@ -38,7 +38,7 @@ std::vector<double> elevations64();
 struct LidarModel {
   std::vector<double> elevations = elevations16();  ///< of the rings, radians
   int columns = 900;                                ///< a turn
-  RangeNoise noise{.sigma = 0.02, .leastRange = 0.5, .maxRange = 100.0, .leastSignal = 1e-5};
+  RangeNoise noise{.sigma = 0.02, .leastRange = 0.5, .maxRange = 100.0, .leastSignal = 5e-5};
 };
 
 /// Beams that no light comes back from - nothing within range, or it is black, glass or grazed - have no return.
