@@ -94,7 +94,7 @@ class PlanDrawer {
     drawNames();
     drawScale();
     const double height = scale_ * size_.y() + 26.0;
-    return {.title = "Storey " + std::to_string(storey_),
+    return {.title = "storey " + std::to_string(storey_),
             .svg = svg_.str(scale_ * size_.x(), height, "plan of storey " + std::to_string(storey_)),
             .legend = legend()};
   }
@@ -251,14 +251,20 @@ class PlanDrawer {
       const auto middle = pixel({claim.T_world_stairs.x, claim.T_world_stairs.y});
       const auto mark = markOf(mapped_.stairsMatches[i].verdict);
       svg_.polyline({middle, pixel({uphill.x, uphill.y})}, mark);
-      svg_.polygon(rectangle(claim.T_world_stairs, 0.4, claim.stairs.stepWidth), mark, "stairs " + toString(claim.id));
+      svg_.circle(middle, 4.0, mark, "stairs " + toString(claim.id));
     }
   }
 
-  /// Where a name fits into its room, nothing else is named there.
+  bool hasStairs(const TrueRoom& room) const {
+    return std::ranges::any_of(truth_.stairs, [&](const TrueStaircase& stairs) {
+      return stairs.rooms[0] == room.id || stairs.rooms[1] == room.id || isIn(room.outline, stairs.foot.head<2>());
+    });
+  }
+
+  /// Where a name fits into its room; stairs need none.
   void drawNames() {
     for (const auto& room : truth_.rooms) {
-      if (room.storey != storey_ || room.label.empty()) continue;
+      if (room.storey != storey_ || room.label.empty() || hasStairs(room)) continue;
       Eigen::Vector2d middle = Eigen::Vector2d::Zero();
       const auto outline = pixels(room.outline);
       for (const auto& corner : outline) middle += corner / static_cast<double>(outline.size());
@@ -280,21 +286,21 @@ class PlanDrawer {
 
   std::vector<LegendEntry> legend() const {
     std::vector<LegendEntry> entries = {{"room entered", "room that was entered"}, {"room", "room that was not"}};
-    const auto addIf = [&](bool isThere, const char* mark, const char* text) {
-      if (isThere) entries.push_back({mark, text});
+    const auto addIf = [&](bool isThere, const char* mark, const char* text, bool isLine = false) {
+      if (isThere) entries.push_back({mark, text, isLine});
     };
-    addIf(!truth_.doors.empty(), "door", "door");
-    addIf(!truth_.doors.empty(), "door unseen", "door not visible enough to be found");
+    addIf(!truth_.doors.empty(), "door", "door", true);
+    addIf(!truth_.doors.empty(), "door unseen", "door not visible enough to be found", true);
     addIf(true, "claim right", "found");
     addIf(true, "claim wrong", "found, but it is not there");
     addIf(true, "missed", "visible, but missed");
     addIf(hasPredictions_, "bet", "predicted floor");
     addIf(!truth_.objects.empty(), "thing", "thing");
     addIf(!mapped_.objects.empty(), "mapped-thing", "thing in the map");
-    addIf(true, "way", "way of the robot");
-    addIf(true, "mapped-way", "the same in the map");
-    addIf(!truth_.people.empty(), "person", "way of a person");
-    addIf(!mapped_.people.empty(), "mapped-person", "the same in the map");
+    addIf(true, "way", "way of the robot", true);
+    addIf(true, "mapped-way", "the same in the map", true);
+    addIf(!truth_.people.empty(), "person", "way of a person", true);
+    addIf(!mapped_.people.empty(), "mapped-person", "the same in the map", true);
     return entries;
   }
 

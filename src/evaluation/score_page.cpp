@@ -73,7 +73,8 @@ std::string pictureIn(const ScorePicture& picture) {
                      picture.svg + "</div>\n<figcaption>";
   for (const auto& entry : picture.legend) {
     html += "<span><svg viewBox=\"0 0 22 12\" width=\"22\" aria-hidden=\"true\"><path class=\"" + escaped(entry.mark) +
-            "\" d=\"M3 3 H19 V9 H3 Z\"/></svg>" + escaped(entry.text) + "</span>\n";
+            "\" d=\"" + (entry.isLine ? "M1 6 H21" : "M3 2 H19 V10 H3 Z") + "\"/></svg>" + escaped(entry.text) +
+            "</span>\n";
   }
   return html + "</figcaption>\n</figure>\n</section>\n";
 }
@@ -136,7 +137,7 @@ ScorePicture reliabilityPicture(const Calibration& calibration) {
                    ", ECE " + figure(calibration.expectedError) + " of " + std::to_string(calibration.count) + " bets",
           .svg = svg.str(kSide + 2 * kMargin, floor + 48, "reliability diagram"),
           .legend = {{"dot", "share that came true, of bets said to be so likely"},
-                     {"diagonal", "as it should be"},
+                     {"diagonal", "as it should be", true},
                      {"bar", "how many bets, at most " + std::to_string(most)}}};
 }
 

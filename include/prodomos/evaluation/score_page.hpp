@@ -26,6 +26,7 @@ struct ScoreTable {
 struct LegendEntry {
   std::string mark;
   std::string text;
+  bool isLine = false;  ///< else an area
 };
 
 struct ScorePicture {
