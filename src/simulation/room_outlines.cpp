@@ -22,6 +22,7 @@ constexpr double kCell = 0.05;
 constexpr double kLeastArea = 1.5;
 constexpr double kLeastRadius = 0.4;  ///< of the largest disc in a room
 constexpr double kTolerance = 0.08;   ///< of an outline on the raster against the walls
+constexpr double kCornerCut = 0.4;    ///< that closed gaps make of corners between oblique walls, at most
 constexpr double kSlit = 2e-4;
 
 using Cell = std::array<int, 2>;
@@ -239,17 +240,17 @@ struct Line {
 };
 
 /// The face of the wall that an edge on the raster follows: of those a little to its right (or left, where the border
-/// was simplified) the one that goes along with it farthest. Else the edge itself.
-Line wallFaceAlong(const Eigen::Vector2d& a, const Eigen::Vector2d& b, std::span<const Segment> walls) {
-  constexpr double kLeastCosine = 0.999;  // 2.6°
+/// was simplified) the one that goes along with it farthest.
+std::optional<Line> wallFaceAlong(const Eigen::Vector2d& a, const Eigen::Vector2d& b, std::span<const Segment> walls) {
   constexpr double kSameFace = 0.005;
-  constexpr double kRight = 1.5 * kCell;
-  constexpr double kLeft = 0.5 * kCell;
-  const Eigen::Vector2d along = (b - a).normalized();
-  const Eigen::Vector2d normal(-along.y(), along.x());
+  constexpr double kRight = 2.0 * kCell;
+  constexpr double kLeft = kCell;
   const double length = (b - a).norm();
+  const Eigen::Vector2d along = (b - a) / length;
+  const Eigen::Vector2d normal(-along.y(), along.x());
+  // Short edges on a raster say little of a wall's direction.
+  const double leastCosine = std::cos(std::min(0.05 + kCell / length, 0.4));
   struct Face {
-    double offset;  ///< from the edge's middle
     double overlap;
     Eigen::Vector2d way;
     Eigen::Vector2d point;  ///< on it
@@ -257,26 +258,29 @@ Line wallFaceAlong(const Eigen::Vector2d& a, const Eigen::Vector2d& b, std::span
   std::vector<Face> faces;
   for (const auto& wall : walls) {
     const Eigen::Vector2d way = wall.b - wall.a;
-    if (std::abs(way.dot(along)) < kLeastCosine * way.norm()) continue;
-    const double offset = normal.dot((wall.a + wall.b) / 2.0 - (a + b) / 2.0);
-    if (offset < -kRight || offset > kLeft) continue;
+    if (std::abs(way.dot(along)) < leastCosine * way.norm()) continue;
     const double from = std::max(0.0, std::min((wall.a - a).dot(along), (wall.b - a).dot(along)));
     const double to = std::min(length, std::max((wall.a - a).dot(along), (wall.b - a).dot(along)));
     if (to <= from) continue;
+    const double share = ((from + to) / 2.0 - (wall.a - a).dot(along)) / way.dot(along);
+    const Eigen::Vector2d point = wall.a + share * way;
+    const double offset = normal.dot(point - a);
+    if (offset < -kRight || offset > kLeft) continue;
     const Eigen::Vector2d overlap = (to - from) * way.normalized() * (way.dot(along) < 0.0 ? -1.0 : 1.0);
-    const auto same =
-        std::ranges::find_if(faces, [&](const Face& f) { return std::abs(f.offset - offset) < kSameFace; });
+    const auto same = std::ranges::find_if(faces, [&](const Face& face) {
+      return std::abs(cross(face.way.normalized(), point - face.point)) < kSameFace;
+    });
     if (same == faces.end()) {
-      faces.push_back({offset, to - from, overlap, (wall.a + wall.b) / 2.0});
+      faces.push_back({to - from, overlap, point});
     } else {
       same->overlap += to - from;
       same->way += overlap;
     }
   }
   const auto best = std::ranges::max_element(faces, {}, &Face::overlap);
-  if (best == faces.end()) return {normal, normal.dot(a)};
+  if (best == faces.end()) return std::nullopt;
   const Eigen::Vector2d turned(-best->way.normalized().y(), best->way.normalized().x());
-  return {turned, turned.dot(best->point)};
+  return Line{turned, turned.dot(best->point)};
 }
 
 std::optional<Eigen::Vector2d> crossing(const Line& a, const Line& b) {
@@ -297,22 +301,68 @@ Polygon withoutRepeats(const Polygon& polygon) {
   return kept;
 }
 
+/// An edge of a border, and the line it is to lie on.
+struct Side {
+  Eigen::Vector2d a;
+  Eigen::Vector2d b;
+  Line line;
+  bool isWall;
+};
+
+bool isSameLine(const Side& one, const Side& next) {
+  constexpr double kSame = 0.01;
+  const double offset = next.line.normal.dot(next.a) - next.line.offset;
+  return one.line.normal.dot(next.line.normal) > 0.999 &&
+         std::abs(one.line.normal.dot(next.a - offset * next.line.normal) - one.line.offset) < kSame;
+}
+
+/// Sides that lie on one line become one; one that only cuts the corner between two walls goes.
+std::vector<Side> mergedSides(std::vector<Side> sides) {
+  std::vector<Side> kept;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const auto& before = sides[(i + sides.size() - 1) % sides.size()];
+    const auto& after = sides[(i + 1) % sides.size()];
+    const bool isCorner = before.isWall && after.isWall && crossing(before.line, after.line);
+    if (!sides[i].isWall && (sides[i].b - sides[i].a).norm() < kCornerCut && isCorner) continue;
+    if (!kept.empty() && isSameLine(kept.back(), sides[i])) {
+      kept.back().b = sides[i].b;
+    } else {
+      kept.push_back(sides[i]);
+    }
+  }
+  while (kept.size() > 1 && isSameLine(kept.back(), kept.front())) {
+    kept.front().a = kept.back().a;
+    kept.pop_back();
+  }
+  return kept;
+}
+
 /// Moves the edges onto the faces of the walls that they follow.
 Polygon snapped(const Polygon& border, std::span<const Segment> walls) {
-  const std::size_t n = border.size();
-  std::vector<Line> lines;
-  for (std::size_t i = 0; i < n; ++i) lines.push_back(wallFaceAlong(border[i], border[(i + 1) % n], walls));
+  std::vector<Side> sides;
+  for (std::size_t i = 0; i < border.size(); ++i) {
+    const auto& a = border[i];
+    const auto& b = border[(i + 1) % border.size()];
+    const Eigen::Vector2d normal = Eigen::Vector2d(a.y() - b.y(), b.x() - a.x()).normalized();
+    const auto face = wallFaceAlong(a, b, walls);
+    sides.push_back({a, b, face.value_or(Line{normal, normal.dot(a)}), face.has_value()});
+  }
+  sides = mergedSides(std::move(sides));
   Polygon moved;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto& before = lines[(i + n - 1) % n];
-    const auto met = crossing(before, lines[i]);
-    if (met && (*met - border[i]).norm() < 3.0 * kTolerance) {
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const auto& before = sides[(i + sides.size() - 1) % sides.size()];
+    const auto& side = sides[i];
+    const auto met = crossing(before.line, side.line);
+    const auto isNear = [&](const Eigen::Vector2d& corner) { return (*met - corner).norm() < kCornerCut; };
+    if (met && (isNear(before.b) || isNear(side.a))) {
       moved.push_back(*met);
       continue;
     }
-    for (const auto& line : {before, lines[i]}) {
-      moved.emplace_back(border[i] + (line.offset - line.normal.dot(border[i])) * line.normal);
-    }
+    const auto onto = [](const Line& line, const Eigen::Vector2d& corner) -> Eigen::Vector2d {
+      return corner + (line.offset - line.normal.dot(corner)) * line.normal;
+    };
+    moved.push_back(onto(before.line, before.b));
+    moved.push_back(onto(side.line, side.a));
   }
   const Polygon result = withoutRepeats(moved);
   return result.size() >= 3 && !findSelfCrossing(result) ? result : border;
