@@ -199,9 +199,11 @@ bool Furnisher::tableWithSeats(std::string_view table, std::string_view seat) {
   return added.has_value();
 }
 
-/// Rows that face a wall, the first `begin` metres before it, `gap` between what stands beside each other.
+/// Rows that face a wall, the first `begin` metres before it, `gap` from the middle of one to the next beside it. Where
+/// that were too many, they stand wider apart.
 void Furnisher::rows(const WallStretch& front, double begin, double pitch, double gap,
                      bool (Furnisher::*add)(geometry::Pose2)) {
+  constexpr double kMost = 25.0;
   double depth = 0.0;
   double left = 0.0;
   double right = 0.0;
@@ -210,11 +212,12 @@ void Furnisher::rows(const WallStretch& front, double begin, double pitch, doubl
     left = std::min(left, front.along().dot(corner - front.from));
     right = std::max(right, front.along().dot(corner - front.from));
   }
+  const double wider = std::sqrt(std::max(1.0, (depth - begin) / pitch * (right - left) / gap / kMost));
   const double heading = std::atan2(front.inward().y(), front.inward().x());
-  const int columns = std::max(1, static_cast<int>((right - left - 0.6) / gap));
-  for (double row = begin; row < depth - 0.5; row += pitch) {
+  const int columns = std::max(1, static_cast<int>((right - left - 0.6) / (gap * wider)));
+  for (double row = begin; row < depth - 0.5; row += pitch * wider) {
     for (int column = 0; column < columns; ++column) {
-      const double at = (left + right) / 2.0 + (column - (columns - 1) / 2.0) * gap;
+      const double at = (left + right) / 2.0 + (column - (columns - 1) / 2.0) * gap * wider;
       const Eigen::Vector2d place = front.from + at * front.along() + row * front.inward();
       (this->*add)({place.x(), place.y(), heading});
     }
@@ -246,6 +249,14 @@ bool Furnisher::deskWithPartition(geometry::Pose2 desk) {
   const auto size = make("desk").size;
   add("partition", desk * geometry::Pose2{-size.x() / 2.0 - 0.05, 0.0, 0.0});
   return true;
+}
+
+bool Furnisher::rack(geometry::Pose2 pose) {
+  return add("storage_shelf", pose).has_value();
+}
+
+bool Furnisher::bookcase(geometry::Pose2 pose) {
+  return add("shelf", pose).has_value();
 }
 
 void Furnisher::radiators() {

@@ -68,6 +68,8 @@ class Furnisher {
   bool computerPlace(geometry::Pose2 desk);
   bool seat(geometry::Pose2 pose);
   bool deskWithPartition(geometry::Pose2 desk);
+  bool rack(geometry::Pose2 pose);
+  bool bookcase(geometry::Pose2 pose);
 
   // Single things.
   /// Of one size in a room, unless it `varies`.

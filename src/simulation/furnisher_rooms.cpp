@@ -19,8 +19,9 @@ struct Furnisher::Recipe {
 
 const Furnisher::Recipe& Furnisher::recipeOf(const Room& room) {
   // Before what is a part of another: "CONFERENCE HALL" before "CONFERENCE".
-  static constexpr std::array<Recipe, 42> kRecipes{{
+  static constexpr std::array<Recipe, 43> kRecipes{{
       {"CLASS", &Furnisher::classroom},
+      {"WARDROBE", &Furnisher::storage},
       {"CONFERENCE HALL", &Furnisher::lectureHall},
       {"LECTURE", &Furnisher::lectureHall},
       {"CONFERENCE", &Furnisher::meetingRoom},
@@ -117,6 +118,10 @@ void Furnisher::laboratory() {
 }
 
 void Furnisher::office() {
+  if (area_ > 40.0) {
+    sharedOffice();
+    return;
+  }
   windows();
   workplacesAtWalls(area_ > 16.0 && chance(0.4) ? 2 : 1, "desk");
   addAtWall(chance(0.5) ? "shelf" : "cupboard");
@@ -178,6 +183,7 @@ void Furnisher::lectureHall() {
 
 void Furnisher::storage() {
   addAtWalls("storage_shelf", by(0.25, 1, 8));
+  if (area_ > 40.0) rows(longestWall(), 3.0, 2.2, 1.7, &Furnisher::rack);
   if (chance(0.4)) addAtWall("cupboard");
   if (chance(0.3)) addAtWall("washing_machine");
   for (int i = random_.integer(0, 3); i > 0; --i) addAtWall("box");
@@ -235,7 +241,7 @@ void Furnisher::library() {
   addAtWall("counter");
   for (int i = by(0.04, 1, 6); i > 0 && tableWithSeats("table", "chair"); --i) continue;
   // Free-standing rows of books.
-  for (int i = by(0.03, 0, 8); i > 0; --i) addInTheMiddle("shelf");
+  if (area_ > 30.0) rows(longestWall(), 3.0, 2.0, 1.3, &Furnisher::bookcase);
   addAtWalls("armchair", by(0.02, 0, 3));
   decorate(3);
 }
@@ -333,7 +339,7 @@ void Furnisher::shop() {
   windows();
   addAtWall("counter");
   addAtWalls("storage_shelf", by(0.08, 2, 10));
-  for (int i = by(0.03, 0, 6); i > 0; --i) addInTheMiddle("storage_shelf");
+  if (area_ > 25.0) rows(longestWall(), 2.6, 2.2, 1.8, &Furnisher::rack);
   if (chance(0.6)) addAtWall("fridge");
   if (chance(0.5)) addAtWall("vending_machine");
   addAtWall("box_pile");

@@ -16,25 +16,27 @@ namespace {
 void plant(Shape& shape, FurnitureLook& look) {
   const auto pot = shape.use(look.own().uniform() < 0.5 ? FurnitureLook::plain({150, 88, 62}) : look.paint);
   const auto green = shape.use(look.leaves());
-  const double radius = 0.34 * std::min(shape.depth(), shape.width());
+  const double radius = 0.3 * std::min(shape.depth(), shape.width());
   const double rim = std::min(0.4, 0.35 * shape.height());
   shape.cone(pot, {0.0, 0.0}, 0.75 * radius, radius, 0.0, rim);
   const bool isTree = shape.height() > 1.0 && look.own().uniform() < 0.5;
-  const double crown = isTree ? 0.65 * shape.height() : rim;
+  const double root = isTree ? 0.55 * shape.height() : rim;
   if (isTree) {
     const auto stem = shape.use(FurnitureLook::plain({92, 70, 50}));
-    shape.cylinder(stem, {0.0, 0.0}, 0.02, rim, crown);
+    shape.cylinder(stem, {0.0, 0.0}, 0.02, rim, 0.8 * shape.height());
   }
-  const int leaves = 18;
+  const int leaves = isTree ? 34 : 22;
   for (int i = 0; i < leaves; ++i) {
     const double angle = 2.4 * i;  // nearly the golden angle: no leaf lies on another
-    const double rise = static_cast<double>(i) / leaves;
-    const double reach = 0.5 * (1.0 - 0.6 * rise) * look.own().uniform(0.75, 1.0);
-    const double tip = std::lerp(crown + 0.05, shape.height(), std::pow(rise, 0.7));
-    const double from = isTree ? std::lerp(crown, shape.height() - 0.1, 0.7 * rise) : rim;
+    const double rise = (i + 0.5) / leaves;
+    // Round as a crown is: widest in the middle; blades are widest below.
+    const double spread = isTree ? std::sin(std::numbers::pi * std::lerp(0.2, 0.9, rise)) : 1.0 - 0.7 * rise;
+    const double reach = 0.5 * spread * look.own().uniform(0.8, 1.0);
+    const double tip = std::lerp(root, shape.height(), rise);
+    const double from = isTree ? std::lerp(root, 0.8 * shape.height(), rise) : rim;
     shape.leaf(green, {0.01 * std::cos(angle), 0.01 * std::sin(angle), from},
                {reach * shape.depth() * std::cos(angle), reach * shape.width() * std::sin(angle), tip},
-               look.own().uniform(0.08, 0.16));
+               look.own().uniform(0.1, 0.18));
   }
 }
 

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kCell = 0.1;               ///< metres
 constexpr double kHeadroom = 1.9;           ///< metres: what hangs higher is in nobody's way
+constexpr double kOnFloor = 0.3;            ///< metres: what begins higher stands on something
 constexpr double kBeforeDoor = 1.0;         ///< metres
 constexpr double kBeforeStairs = 1.2;       ///< metres
 constexpr double kBesideWay = 0.45;         ///< metres to each side of a person's way
@@ -52,7 +53,7 @@ RoomSpace::RoomSpace(const Building& building, int room)
   rasterize();
   for (const auto& thing : building.things) {
     if (thing.storey != room_.storey || !contains(room_.outline, placeOf(thing).middle)) continue;
-    taken_.push_back(volumeOf(thing));
+    take(thing);
     if (hangs(thing)) continue;
     for (const auto cell : cellsNear(placeOf(thing))) open_[cell] = 0;
   }
@@ -232,15 +233,33 @@ std::size_t RoomSpace::flood() {
 }
 
 bool RoomSpace::fits(const Thing& thing) const {
-  auto volume = volumeOf(thing);
+  const auto volume = volumeOf(thing);
   if (!isWithin(room_.outline, volume.footprint) || volume.top > floor_z() + ceilingHeight()) return false;
   const auto meets = [&](const Footprint& other) { return overlap(other, volume.footprint); };
-  const bool onWall = hangs(thing);
-  if (onWall && std::ranges::any_of(hidden_, meets)) return false;
-  if (!onWall && volume.bottom < floor_z() + kHeadroom && std::ranges::any_of(clear_, meets)) return false;
-  return std::ranges::none_of(taken_, [&](const Volume& other) {
+  const auto meetsVolume = [&](const Volume& other) {
     return volume.bottom < other.top - 1e-6 && other.bottom < volume.top - 1e-6 && meets(other.footprint);
+  };
+  if (std::ranges::any_of(taken_, meetsVolume)) return false;
+  if (hangs(thing)) return std::ranges::none_of(hidden_, meets) && !standsBefore(thing);
+  const bool stands = volume.bottom < floor_z() + kOnFloor;
+  if (stands && std::ranges::any_of(inView_, meetsVolume)) return false;
+  return volume.bottom > floor_z() + kHeadroom || std::ranges::none_of(clear_, meets);
+}
+
+/// Is it hidden by something that stands at the wall?
+bool RoomSpace::standsBefore(const Thing& thing) const {
+  const auto view = viewOf(thing);
+  return std::ranges::any_of(taken_, [&](const Volume& other) {
+    return other.bottom < floor_z() + kOnFloor && view.bottom < other.top && overlap(other.footprint, view.footprint);
   });
+}
+
+/// The space before what hangs: it is to be seen.
+RoomSpace::Volume RoomSpace::viewOf(const Thing& thing) {
+  auto volume = volumeOf(thing);
+  volume.footprint.middle += unit(volume.footprint.heading) * kInView / 2.0;
+  volume.footprint.size.x() += kInView;
+  return volume;
 }
 
 bool RoomSpace::leavesWays(const Footprint& footprint) {
@@ -264,17 +283,17 @@ bool RoomSpace::leavesWays(const Footprint& footprint) {
   return false;
 }
 
+void RoomSpace::take(const Thing& thing) {
+  taken_.push_back(volumeOf(thing));
+  if (hangs(thing)) inView_.push_back(viewOf(thing));
+}
+
 bool RoomSpace::tryAdd(const Thing& thing) {
   if (!fits(thing)) return false;
-  auto volume = volumeOf(thing);
-  const bool inTheWay = !hangs(thing) && volume.bottom < floor_z() + 0.3;
-  if (inTheWay && !leavesWays(volume.footprint)) return false;
-  if (hangs(thing)) {
-    // What hangs is to be seen: nothing as high is put before it.
-    volume.footprint.middle += unit(volume.footprint.heading) * kInView / 2.0;
-    volume.footprint.size.x() += kInView;
-  }
-  taken_.push_back(volume);
+  const auto volume = volumeOf(thing);
+  const bool stands = !hangs(thing) && volume.bottom < floor_z() + kOnFloor;
+  if (stands && !leavesWays(volume.footprint)) return false;
+  take(thing);
   added_.push_back(thing);
   return true;
 }

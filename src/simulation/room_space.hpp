@@ -45,6 +45,7 @@ class RoomSpace {
   };
 
   static Volume volumeOf(const Thing& thing);
+  static Volume viewOf(const Thing& thing);
   void keepDoorsClear(const Building& building);
   void keepStairsClear(const Building& building);
   void keepWaysClear(const Building& building);
@@ -52,6 +53,8 @@ class RoomSpace {
   void findReach();
 
   bool fits(const Thing& thing) const;
+  bool standsBefore(const Thing& thing) const;
+  void take(const Thing& thing);
   bool leavesWays(const Footprint& footprint);
   std::vector<std::size_t> cellsNear(const Footprint& footprint) const;
   std::size_t flood();
@@ -67,6 +70,7 @@ class RoomSpace {
   std::vector<Footprint> flights_;
   std::vector<Eigen::Vector2d> goals_;  ///< before doors and stairs
   std::vector<Volume> taken_;
+  std::vector<Volume> inView_;  ///< before what hangs
   std::vector<Thing> added_;
   // The raster: cells in which the middle of a robot may be.
   Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
