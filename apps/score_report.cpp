@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <cctype>
 #include <iostream>
+#include <string_view>
 #include <utility>
 
 namespace prodomos::apps {
@@ -27,7 +29,9 @@ std::string nameOf(std::string key) {
       {{"_m2", ", m²"}, {"_m", ", m"}, {"_deg", ", °"}, {"_percent", ", %"}, {"_s", ", s"}}};
   for (const auto& [suffix, unit] : kUnits) {
     if (!key.ends_with(suffix)) continue;
-    key.replace(key.size() - std::string(suffix).size(), std::string::npos, unit);
+    key.erase(key.size() - std::string_view(suffix).size());
+    const bool isOfNumber = std::isdigit(static_cast<unsigned char>(key.back())) != 0;  // "up_to_60_m2"
+    key += isOfNumber ? unit + 1 : unit;
     break;
   }
   std::ranges::replace(key, '_', ' ');
