@@ -4,6 +4,7 @@
 
 #include "simulation/distance_field.hpp"
 #include "simulation/passing.hpp"
+#include "simulation/shell_parts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -268,9 +269,7 @@ void FloorGrid::drawThings(const Building& building) {
 void FloorGrid::drawStairs(const Building& building) {
   for (const auto& stairs : building.stairs) {
     if (stairs.lowerStorey != storey_ && stairs.upperStorey != storey_) continue;
-    const Eigen::Vector2d foot = stairs.foot.head<2>();
-    const Eigen::Vector2d head = headOf(stairs).head<2>();
-    fill(rectangle((foot + head) / 2.0, stairs.direction, (head - foot).norm(), stairs.width), kWall);
+    fill(footprintOf(stairs), kWall);
   }
   for (const auto& landing : building.landings) {
     if (landing.lowerStorey == storey_ || landing.lowerStorey + 1 == storey_) fill(landing.outline, kWall);

@@ -39,16 +39,13 @@ constexpr double kOpenAfter = 1.0;
 
 /// At each time of either and where they cross, the greater of both.
 std::vector<Swing> greaterOf(const std::vector<Swing>& a, const std::vector<Swing>& b) {
-  const auto angleOf = [](const std::vector<Swing>& swings, double time) {
-    Door door;
-    door.swings = swings;
-    return openingAngle(door, time);
-  };
+  const Door one{.swings = a};
+  const Door other{.swings = b};
   std::vector<double> times;
   for (const auto& swing : a) times.push_back(swing.time);
   for (const auto& swing : b) times.push_back(swing.time);
   std::ranges::sort(times);
-  const auto difference = [&](double time) { return angleOf(a, time) - angleOf(b, time); };
+  const auto difference = [&](double time) { return openingAngle(one, time) - openingAngle(other, time); };
   std::vector<double> crossings;
   for (std::size_t i = 1; i < times.size(); ++i) {
     const double before = difference(times[i - 1]);
@@ -61,7 +58,7 @@ std::vector<Swing> greaterOf(const std::vector<Swing>& a, const std::vector<Swin
   constexpr double kSameTime = 1e-6;
   for (const double time : times) {
     if (!greater.empty() && time - greater.back().time < kSameTime) continue;
-    greater.push_back({time, std::max(angleOf(a, time), angleOf(b, time))});
+    greater.push_back({time, std::max(openingAngle(one, time), openingAngle(other, time))});
   }
   return greater;
 }
