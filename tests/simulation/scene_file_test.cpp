@@ -431,6 +431,23 @@ TEST_P(Samples, AreTheSameForTheSameSeed) {
   }
 }
 
+/// As it stands in docs/scene-files.md.
+TEST(SceneFile, TheDocumentedExampleLoads) {
+  const auto page = test::readFile(std::filesystem::path(__FILE__).parent_path() / "../../docs/scene-files.md");
+  const auto begin = page.find("```yaml\n") + 8;
+  const auto building = read(page.substr(begin, page.find("```", begin) - begin));
+  EXPECT_EQ(building.name, "two offices");
+  EXPECT_THAT(building.rooms, SizeIs(3));
+  EXPECT_THAT(building.doors, SizeIs(3));
+  EXPECT_THAT(building.stairs, SizeIs(1));
+  EXPECT_NEAR(building.stairs[0].foot.z(), -6 * 0.18, 1e-9);
+}
+
+TEST(SceneFile, TheDocumentationNamesAllKindsOfThings) {
+  const auto page = test::readFile(std::filesystem::path(__FILE__).parent_path() / "../../docs/scene-files.md");
+  for (const auto& kind : thingKinds()) EXPECT_THAT(page, HasSubstr(std::string(kind.name)));
+}
+
 INSTANTIATE_TEST_SUITE_P(SceneFile, Samples, testing::Values("sample_home", "sample_office"));
 
 }  // namespace
