@@ -90,7 +90,7 @@ class Tailor {
   double scale() const { return scale_; }
 
  private:
-  Pose3 T_floor_spine(double z) const;
+  Pose3 spineAt(double z) const;
   Ring trunkRing(const TrunkSection& section, double ease) const;
   Ring limbRing(const Limb& limb, const LimbSection& section, double girth, double ease) const;
   std::vector<Ring> limbRings(const Limb& limb, std::span<const LimbSection> sections, double from, double to,
@@ -116,27 +116,31 @@ double smoothStep(double x) {
 }
 
 /// The frame of the spine at that height above the hip joints: it bends between pelvis and chest.
-Pose3 Tailor::T_floor_spine(double z) const {
+Pose3 Tailor::spineAt(double z) const {
   const double spine = (kProportions.neckHeight - kProportions.hipHeight) * height_;
   const double share = smoothStep((z / spine - 0.15) / 0.6);
   const Pose3& pelvis = posture_.T_floor_pelvis;
   const Pose3& chest = posture_.T_floor_chest;
-  Pose3 T = Pose3::Identity();
-  T.linear() = Eigen::Quaterniond(pelvis.linear()).slerp(share, Eigen::Quaterniond(chest.linear())).toRotationMatrix();
-  T.translation() = (1.0 - share) * (pelvis * Vector3d(0.0, 0.0, z)) + share * (chest * Vector3d(0.0, 0.0, z - spine));
-  return T;
+  Pose3 T_floor_spine = Pose3::Identity();
+  T_floor_spine.linear() =
+      Eigen::Quaterniond(pelvis.linear()).slerp(share, Eigen::Quaterniond(chest.linear())).toRotationMatrix();
+  T_floor_spine.translation() =
+      (1.0 - share) * (pelvis * Vector3d(0.0, 0.0, z)) + share * (chest * Vector3d(0.0, 0.0, z - spine));
+  return T_floor_spine;
 }
 
 Ring Tailor::trunkRing(const TrunkSection& section, double ease) const {
-  const Pose3 T = T_floor_spine(section.z * scale_);
+  const Pose3 T_floor_section = spineAt(section.z * scale_);
   // The neck and the shoulders do not grow with the belly.
   const double girth = std::lerp(look_.girth, 1.0, smoothStep((section.z - 0.4) / 0.1)) * scale_;
-  return {T * Vector3d(section.ahead * scale_, 0.0, 0.0), -(section.halfWidth * girth + ease) * T.linear().col(1),
-          (section.halfDepth * girth + ease) * T.linear().col(0), 2.4};
+  return {T_floor_section * Vector3d(section.ahead * scale_, 0.0, 0.0),
+          -(section.halfWidth * girth + ease) * T_floor_section.linear().col(1),
+          (section.halfDepth * girth + ease) * T_floor_section.linear().col(0), 2.4};
 }
 
 void Tailor::addTrunk(Surface& top, Surface& inner, Surface& trousers, Surface& belt) const {
   std::vector<Ring> seat;
+  seat.reserve(kSeat.size());
   for (const auto& section : kSeat) seat.push_back(trunkRing(section, 0.003));
   addLoft(trousers, seat, kAroundTrunk, {0.03 * scale_, 0.0});
 
@@ -176,15 +180,15 @@ void Tailor::addTrunk(Surface& top, Surface& inner, Surface& trousers, Surface& 
 }
 
 void Tailor::addNeck(Surface& skin) const {
-  const Pose3 T = posture_.T_floor_chest;
-  const Pose3 head = posture_.T_floor_head;
+  const Pose3& chest = posture_.T_floor_chest;
+  const Pose3& head = posture_.T_floor_head;
   const double radius = (look_.female ? 0.050 : 0.058) * scale_;
   const auto ring = [&](const Pose3& frame, double x, double z, double factor) {
     return Ring{frame * Vector3d(x * scale_, 0.0, z * scale_), -factor * radius * frame.linear().col(1),
                 factor * 1.05 * radius * frame.linear().col(0)};
   };
   addLoft(skin,
-          {ring(T, -0.008, -0.01, 0.92), ring(T, 0.002, 0.03, 0.96), ring(head, 0.010, 0.07, 0.96),
+          {ring(chest, -0.008, -0.01, 0.92), ring(chest, 0.002, 0.03, 0.96), ring(head, 0.010, 0.07, 0.96),
            ring(head, 0.014, 0.11, 0.95)},
           14, {0.01, 0.01});
 }
@@ -294,13 +298,15 @@ void Tailor::addShoe(Side side, Surface& shoe, Surface& sole) const {
   const Foot& foot = posture_.feet[side];
   const auto rings = [&](double height, double wider) {
     std::vector<Ring> all;
+    all.reserve(kShoe.size());
     for (const auto& section : kShoe) {
-      Pose3 T = foot.T_floor_sole;
-      T.translate(Vector3d(kBall * scale_, 0.0, 0.0));
-      if (section.x > kBall) T.rotate(AngleAxisd(-foot.toeBend, Vector3d::UnitY()));
+      Pose3 T_floor_ball = foot.T_floor_sole;
+      T_floor_ball.translate(Vector3d(kBall * scale_, 0.0, 0.0));
+      if (section.x > kBall) T_floor_ball.rotate(AngleAxisd(-foot.toeBend, Vector3d::UnitY()));
       const double top = std::min(section.height, height) * scale_;
-      all.push_back({T * Vector3d((section.x - kBall) * scale_, 0.0, top / 2.0),
-                     (section.halfWidth * scale_ + wider) * T.linear().col(1), top / 2.0 * T.linear().col(2), 2.8});
+      all.push_back({T_floor_ball * Vector3d((section.x - kBall) * scale_, 0.0, top / 2.0),
+                     (section.halfWidth * scale_ + wider) * T_floor_ball.linear().col(1),
+                     top / 2.0 * T_floor_ball.linear().col(2), 2.8});
     }
     return all;
   };

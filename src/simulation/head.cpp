@@ -41,6 +41,7 @@ Ring ringOf(const Section& section) {
 
 std::vector<Ring> ringsOf(const auto& sections) {
   std::vector<Ring> rings;
+  rings.reserve(sections.size());
   for (const Section& section : sections) rings.push_back(ringOf(section));
   return rings;
 }

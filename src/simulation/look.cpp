@@ -53,7 +53,9 @@ float infraredOf(const Rgb& color) {
 }
 
 Material clothOf(const Rgb& color, base::Random& random) {
-  Material cloth{.color = color, .accent = scaled(color, 0.82), .pattern = Pattern::kFabric, .scale = 0.012};
+  Material cloth{.color = color, .accent = scaled(color, 0.82)};
+  cloth.pattern = random.uniform() < 0.7 ? Pattern::kFabric : Pattern::kPlain;
+  cloth.scale = 0.012;
   cloth.seed = static_cast<std::uint32_t>(random.integer(0, 1 << 30));
   cloth.infrared = infraredOf(color);
   return cloth;

@@ -41,11 +41,11 @@ void checkPerson(const Person& person) {
   }
 }
 
-PersonState stateOf(const Person& person, double floor_z, double time) {
+PersonState stateOf(const Person& person, double floorZ, double time) {
   checkPerson(person);
   const Posture posture = postureOf(person, time);
   PersonState state;
-  state.position = {posture.pose.x, posture.pose.y, floor_z};
+  state.position = {posture.pose.x, posture.pose.y, floorZ};
   state.heading = geometry::normalizeAngle(posture.pose.theta);
   state.velocity.head<2>() = posture.velocity;
 
@@ -61,14 +61,14 @@ PersonState stateOf(const Person& person, double floor_z, double time) {
   set(kLeftShoulder, posture.arms[kLeft]);
   set(kRightHip, posture.legs[kRight]);
   set(kLeftHip, posture.legs[kLeft]);
-  for (auto& joint : joints) joint.z() += floor_z;
+  for (auto& joint : joints) joint.z() += floorZ;
   return state;
 }
 
-std::vector<Surface> bodyAt(const Person& person, double floor_z, double time, std::uint16_t instance) {
+std::vector<Surface> bodyAt(const Person& person, double floorZ, double time, std::uint16_t instance) {
   checkPerson(person);
   geometry::Pose3 T_world_floor = geometry::Pose3::Identity();
-  T_world_floor.translation().z() = floor_z;
+  T_world_floor.translation().z() = floorZ;
   std::vector<Surface> body = bodyOf(postureOf(person, time), lookOf(person.look), person.height);
   for (auto& surface : body) {
     surface = transformed(T_world_floor, std::move(surface));

@@ -62,9 +62,9 @@ std::vector<simulation::Surface> room(const Shot& shot) {
   using simulation::Pattern;
   const auto classOf = simulation::classId;
   std::vector<simulation::Surface> all;
-  const auto add = [&](const geometry::Pose3& T, const Vector3d& size, const simulation::Material& material,
+  const auto add = [&](const geometry::Pose3& T_world_box, const Vector3d& size, const simulation::Material& material,
                        const char* name) {
-    all.push_back(simulation::boxSurface(T, size, material, classOf(name), 0));
+    all.push_back(simulation::boxSurface(T_world_box, size, material, classOf(name), 0));
   };
   const simulation::Material paint{.color = {214, 210, 198}};
   const simulation::Material wood{
@@ -157,6 +157,7 @@ std::vector<Detection> detect(cv::dnn::Net& net, const cv::Mat& image) {
   std::vector<int> kept;
   cv::dnn::NMSBoxes(boxes, scores, 0.1F, 0.45F, kept);
   std::vector<Detection> detections;
+  detections.reserve(kept.size());
   for (const int i : kept) {
     detections.push_back({boxes[static_cast<std::size_t>(i)], scores[static_cast<std::size_t>(i)]});
   }

@@ -49,10 +49,10 @@ struct PersonState {
 /// no human's height.
 void checkPerson(const Person& person);
 
-/// Both throw as checkPerson() does. `floor_z` is the height of the floor that the person is on.
-PersonState stateOf(const Person& person, double floor_z, double time);
+/// Both throw as checkPerson() does. `floorZ` is the height of the floor that the person is on.
+PersonState stateOf(const Person& person, double floorZ, double time);
 /// The body in world coordinates, class "person", one surface a material. At all times it has the same triangles and
 /// materials: vertices and normals alone move.
-std::vector<Surface> bodyAt(const Person& person, double floor_z, double time, std::uint16_t instance);
+std::vector<Surface> bodyAt(const Person& person, double floorZ, double time, std::uint16_t instance);
 
 }  // namespace prodomos::simulation
