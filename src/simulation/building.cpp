@@ -118,6 +118,18 @@ bool contains(const Polygon& polygon, const Eigen::Vector2d& point) {
   return inside;
 }
 
+bool isSlit(const Polygon& polygon, std::size_t edge) {
+  constexpr double kWidest = 1e-3;
+  const std::size_t n = polygon.size();
+  const auto& from = polygon[edge];
+  const auto& to = polygon[(edge + 1) % n];
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool runsBack = (polygon[i] - to).norm() < kWidest && (polygon[(i + 1) % n] - from).norm() < kWidest;
+    if (runsBack && i != edge) return true;
+  }
+  return false;
+}
+
 std::optional<std::pair<std::size_t, std::size_t>> findSelfCrossing(const Polygon& polygon) {
   const std::size_t n = polygon.size();
   for (std::size_t i = 0; i < n; ++i) {

@@ -237,6 +237,7 @@ void FloorGrid::drawRooms(const Building& building) {
   for (const auto& room : building.rooms) {
     if (room.storey != storey_) continue;
     for (std::size_t i = 0; i < room.outline.size(); ++i) {
+      if (isSlit(room.outline, i)) continue;
       drawWall(room.outline[i], room.outline[(i + 1) % room.outline.size()]);
     }
   }

@@ -385,7 +385,7 @@ std::vector<Bridge> bridgesByLength(const Polygon& outline, const std::vector<Po
       for (std::size_t edge = 0; edge < outline.size(); ++edge) {
         const auto& a = outline[edge];
         const Eigen::Vector2d way = outline[(edge + 1) % outline.size()] - a;
-        if (way.norm() < 4.0 * kSlit) continue;
+        if (way.norm() < 4.0 * kSlit || isSlit(outline, edge)) continue;
         const double margin = kSlit / way.norm();
         const double t = std::clamp((h - a).dot(way) / way.squaredNorm(), margin, 1.0 - 2.0 * margin);
         const Eigen::Vector2d foot = a + t * way;

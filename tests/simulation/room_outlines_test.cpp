@@ -72,6 +72,10 @@ TEST(RoomOutlines, ARoomRoundOthersIsSimpleAndLeavesThemOut) {
   ASSERT_EQ(rooms.size(), 4U);
   EXPECT_NEAR(signedArea(rooms[0]), 200.0 - 3 * 16.0, 0.05);
   for (const auto& room : rooms) EXPECT_FALSE(findSelfCrossing(room));
+  // One slit a block, each with two sides.
+  int slits = 0;
+  for (std::size_t i = 0; i < rooms[0].size(); ++i) slits += isSlit(rooms[0], i);
+  EXPECT_EQ(slits, 6);
   EXPECT_TRUE(contains(rooms[0], {1, 1}));
   EXPECT_TRUE(contains(rooms[0], {7.5, 5}));
   EXPECT_FALSE(contains(rooms[0], {5, 5}));

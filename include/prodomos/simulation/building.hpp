@@ -170,6 +170,9 @@ RoomUse useOfLabel(std::string_view label);
 /// Positive where counter-clockwise, m².
 double signedArea(const Polygon& polygon);
 bool contains(const Polygon& polygon, const Eigen::Vector2d& point);
+/// Does the edge from this corner run back beside another one, less than a millimetre off? So a room that goes round
+/// others has what is inside joined with its outline: no wall stands there.
+bool isSlit(const Polygon& polygon, std::size_t edge);
 /// The first pair of edges that cross or touch apart from their shared corner, by their first corners.
 std::optional<std::pair<std::size_t, std::size_t>> findSelfCrossing(const Polygon& polygon);
 
