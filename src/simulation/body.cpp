@@ -207,8 +207,9 @@ Ring Tailor::limbRing(const Limb& limb, const LimbSection& section, double girth
     tangent = (1.0 - s) * upper + s * lower;
   }
   tangent.normalize();
-  const Vector3d front = tangent.cross(limb.hinge).normalized();
-  return {center + section.ahead * scale_ * front, (section.halfWidth * girth * scale_ + ease) * limb.hinge,
+  const Vector3d hinge = limb.rootHinge + std::min(section.t, 1.0) * (limb.hinge - limb.rootHinge);
+  const Vector3d front = tangent.cross(hinge).normalized();
+  return {center + section.ahead * scale_ * front, (section.halfWidth * girth * scale_ + ease) * front.cross(tangent),
           (section.halfDepth * girth * scale_ + ease) * front, 2.0};
 }
 
@@ -234,15 +235,15 @@ std::vector<Ring> Tailor::limbRings(const Limb& limb, std::span<const LimbSectio
 std::vector<Ring> Tailor::shoulderRings(Side side, double girth, double ease) const {
   const Limb& arm = posture_.arms[side];
   const Vector3d along = (arm.middle - arm.root).normalized();
-  const Vector3d front = along.cross(arm.hinge).normalized();
-  const Vector3d chestwards = -signOf(side) * posture_.T_floor_chest.linear().col(1);
-  const Vector3d outward = (chestwards.dot(front) * front - chestwards).normalized();
+  const Vector3d front = along.cross(arm.rootHinge);
+  const Vector3d left = posture_.T_floor_chest.linear().col(1);
+  const Vector3d outward = signOf(side) * (left - left.dot(front) * front).normalized();
   const auto ring = [&](double inward, double sideways, double height, double depth) {
     const Vector3d tangent = (sideways * outward + (1.0 - sideways) * along).normalized();
     return Ring{arm.root - inward * scale_ * outward, (height * girth * scale_ + ease) * front.cross(tangent),
                 (depth * girth * scale_ + ease) * front};
   };
-  return {ring(0.070, 1.0, 0.022, 0.044), ring(0.035, 0.85, 0.034, 0.053), ring(0.010, 0.6, 0.040, 0.054),
+  return {ring(0.080, 1.0, 0.020, 0.030), ring(0.040, 0.9, 0.033, 0.048), ring(0.010, 0.6, 0.040, 0.054),
           ring(0.002, 0.25, 0.045, 0.054)};
 }
 

@@ -77,7 +77,8 @@ Limb bentLimb(const Vector3d& root, const Vector3d& end, double upper, double lo
   const Vector3d aside = (pole - pole.dot(along) * along).normalized();
   const double foot = (length * length + upper * upper - lower * lower) / (2.0 * length);
   const double bulge = std::sqrt(std::max(upper * upper - foot * foot, 0.0));
-  return {root, root + foot * along + bulge * aside, root + length * along, hingeSign * aside.cross(along)};
+  const Vector3d hinge = hingeSign * aside.cross(along);
+  return {root, root + foot * along + bulge * aside, root + length * along, hinge, hinge};
 }
 
 Vector3d shoulder(const Posture& posture, Side side, double height) {
@@ -93,6 +94,13 @@ Vector3d ankle(const Foot& foot, double height) {
   return foot.T_floor_sole * Vector3d(0.0, 0.0, kProportions.ankleHeight * height);
 }
 
+/// Flesh at the shoulder goes with the chest, however the elbow is turned.
+void settleShoulder(Limb& arm, const Posture& posture) {
+  const Vector3d along = (arm.middle - arm.root).normalized();
+  const Vector3d left = posture.T_floor_chest.linear().col(1);
+  arm.rootHinge = (left - left.dot(along) * along).normalized();
+}
+
 Limb swungArm(const Posture& posture, Side side, const ArmAngles& angles, double height) {
   const Eigen::Matrix3d R_floor_upper =
       posture.T_floor_chest.linear() * AngleAxisd(signOf(side) * angles.abduction, Vector3d::UnitX()) *
@@ -103,6 +111,7 @@ Limb swungArm(const Posture& posture, Side side, const ArmAngles& angles, double
   arm.middle = arm.root - kProportions.upperArm * height * R_floor_upper.col(2);
   arm.end = arm.middle - kProportions.forearm * height * R_floor_lower.col(2);
   arm.hinge = R_floor_upper.col(1);
+  settleShoulder(arm, posture);
   return arm;
 }
 
@@ -213,8 +222,10 @@ Limb seatedArm(const Posture& posture, const Pose3& T_floor_root, const Manner& 
   const Vector3d wrist = manner.handsOnDesk ? Vector3d(0.36 + play, sign * (0.13 + play), 0.79)
                                             : Vector3d(0.27 + play, sign * 0.12, kSeatedHipHeight + 0.10);
   const Vector3d pole = T_floor_root.linear() * Vector3d(-1.0, 0.7 * sign, -0.6);
-  return bentLimb(shoulder(posture, side, height), T_floor_root * wrist, kProportions.upperArm * height,
-                  kProportions.forearm * height, pole, -1.0);
+  Limb arm = bentLimb(shoulder(posture, side, height), T_floor_root * wrist, kProportions.upperArm * height,
+                      kProportions.forearm * height, pole, -1.0);
+  settleShoulder(arm, posture);
+  return arm;
 }
 
 Posture seatedPosture(const Person& person, double time) {

@@ -18,7 +18,8 @@ struct Limb {
   Eigen::Vector3d root;
   Eigen::Vector3d middle;
   Eigen::Vector3d end;
-  Eigen::Vector3d hinge;  ///< axis of elbow or knee, unit length, to the person's left; the limb bends about it
+  Eigen::Vector3d hinge;      ///< axis of elbow or knee, unit length, to the person's left; the limb bends about it
+  Eigen::Vector3d rootHinge;  ///< the same axis at its root: flesh twists between
 };
 
 /// How a body stands, in the frame `floor`: the world's, with z = 0 on the person's floor. Frames of the body have x
