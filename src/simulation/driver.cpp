@@ -21,6 +21,7 @@ constexpr double kAimPerSpeed = 0.4;
 
 /// Close enough to where a way or a turn ends, metres and radians.
 constexpr double kArrived = 0.02;
+constexpr double kExactlyThere = 0.004;
 constexpr double kTurned = 0.01;
 
 /// For how long a robot waits for people, and then does not, seconds.
@@ -30,8 +31,6 @@ constexpr double kImpatience = 4.0;
 /// On stairs and in lifts, m/s.
 constexpr double kCarrySpeed = 0.4;
 constexpr double kLiftSpeed = 0.8;
-/// Until a lift's doors have closed or opened, seconds.
-constexpr double kLiftDoors = 2.5;
 
 double headingTo(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   return std::atan2(to.y() - from.y(), to.x() - from.x());
@@ -204,7 +203,7 @@ void Driver::straightTo(const Eigen::Vector3d& goal, double speed) {
     const double done = (position() - from).norm();
     driven_.back().z = std::lerp(from_z, goal.z(), std::min(1.0, done / length));
     const double left = length - done;
-    if (left < kArrived) break;
+    if (left < kExactlyThere) break;
     // Small errors of heading are steered away.
     const double aside = geometry::normalizeAngle(headingTo(position(), goal.head<2>()) - now().pose.theta);
     step(waits() ? 0.0 : std::min(speed, fastestBefore(left)), left > kLeastAim ? aside : 0.0);

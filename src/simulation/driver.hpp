@@ -55,6 +55,8 @@ class Driver {
   void ride(double z, int toStorey);
 
   static constexpr double kTick = 0.02;  ///< seconds
+  /// How long it stands in a lift before and after the ride, until the doors have closed or opened; seconds.
+  static constexpr double kLiftDoors = 2.5;
 
  private:
   struct Track;

@@ -40,8 +40,7 @@ void check(const TourOptions& options) {
 }
 
 /// Is someone who walks or stands in the way of the robot, or about to be? People on chairs are furniture.
-bool someoneIsAhead(const Building& building, const DrivenPose& now) {
-  constexpr double kAhead = 1.1;  // from the robot's middle: 0.8 m and its radius
+bool someoneIsAhead(const Building& building, const DrivenPose& now, double distance) {
   constexpr double kAside = 0.5;
   const Eigen::Rotation2Dd R_robot_world(-now.pose.theta);
   return std::ranges::any_of(building.people, [&](const Person& person) {
@@ -49,7 +48,7 @@ bool someoneIsAhead(const Building& building, const DrivenPose& now) {
     return std::ranges::any_of(std::array{0.0, 0.4, 0.8}, [&](double later) {
       const Eigen::Vector2d offset = positionAt(person, now.time + later) - Eigen::Vector2d(now.pose.x, now.pose.y);
       const Eigen::Vector2d inRobot = R_robot_world * offset;
-      return inRobot.x() > 0.0 && inRobot.x() < kAhead && std::abs(inRobot.y()) < kAside;
+      return inRobot.x() > 0.0 && inRobot.x() < distance && std::abs(inRobot.y()) < kAside;
     });
   });
 }
@@ -59,29 +58,29 @@ struct Stay {
   double to;
 };
 
-/// While the robot is around a door that it passes.
+/// While the robot is around a door that it passes. A lift rides with its doors closed.
 std::vector<Stay> passages(const Door& door, const std::vector<DrivenPose>& driven) {
   constexpr double kAround = 1.4;  // metres: a leaf and a robot
   const Eigen::Vector2d middle(door.pose.x, door.pose.y);
   std::vector<Stay> stays;
   std::optional<Stay> stay;
   bool passed = false;
-  const auto leave = [&] {
+  int storey = driven.front().storey;
+  for (const auto& now : driven) {
+    const int before = std::exchange(storey, now.storey);
+    const Eigen::Vector2d position(now.pose.x, now.pose.y);
+    if (now.storey == door.storey && (position - middle).norm() < kAround) {
+      if (!stay) stay = {before == kBetweenStoreys ? now.time + kSwingTime : now.time, now.time};
+      stay->to = now.time;
+      passed = passed || liesInOpening(door, position);
+      continue;
+    }
+    if (stay && now.storey == kBetweenStoreys) stay->to -= Driver::kLiftDoors - kSwingTime;
     if (passed) stays.push_back(*stay);
     stay.reset();
     passed = false;
-  };
-  for (const auto& now : driven) {
-    const Eigen::Vector2d position(now.pose.x, now.pose.y);
-    if (now.storey != door.storey || (position - middle).norm() > kAround) {
-      leave();
-      continue;
-    }
-    if (!stay) stay = {now.time, now.time};
-    stay->to = now.time;
-    passed = passed || liesInOpening(door, position);
   }
-  leave();
+  if (passed) stays.push_back(*stay);
   return stays;
 }
 
@@ -105,9 +104,10 @@ void openDoors(Building& building, const std::vector<DrivenPose>& driven, const 
   constexpr double kOpensLater = 0.35;
   base::Random random(options.seed, "doors of the tour");
   for (auto& door : building.doors) {
-    const bool staysOpen = random.uniform() < kStaysOpen;
-    const double hold = random.uniform(0.5, 4.0);
-    const bool opensLater = random.uniform() < kOpensLater;
+    const bool isLift = isLiftDoor(building, door);
+    const bool staysOpen = random.uniform() < kStaysOpen && !isLift;
+    const double hold = isLift ? 0.0 : random.uniform(0.5, 4.0);
+    const bool opensLater = random.uniform() < kOpensLater && !isLift;
     if (door.leaves == 0 || !canBePassed(building, door)) continue;
     const double angle = passingAngle(building, door);
     const auto passed = passages(door, driven);
@@ -138,7 +138,11 @@ geometry::Pose3 poseAt(const Tour& tour, double time) {
 Tour planTour(Building& building, const TourOptions& options) {
   check(options);
   const Floors floors(building, options.robotRadius + kReserve);
-  const auto mustWait = [&](const DrivenPose& now) { return someoneIsAhead(building, now); };
+  constexpr double kKept = 0.8;  // between robot and person, metres
+  const double braking = options.speed * options.speed / (2.0 * options.acceleration);
+  const auto mustWait = [&](const DrivenPose& now) {
+    return someoneIsAhead(building, now, kKept + options.robotRadius + braking);
+  };
   Tour tour;
   const auto start =
       options.path.empty() ? startOf(building, floors, options.seed) : startOf(building, floors, options.path);

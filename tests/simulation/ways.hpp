@@ -28,9 +28,9 @@ inline bool isInOpening(const simulation::Building& building, int storey, const 
   });
 }
 
-/// All walls of a storey, in pieces of a centimetre.
+/// All walls of a storey, in pieces of two centimetres.
 inline std::vector<WallPiece> wallsOf(const simulation::Building& building, int storey) {
-  constexpr double kPiece = 0.01;
+  constexpr double kPiece = 0.02;
   std::vector<WallPiece> walls;
   for (const auto& room : building.rooms) {
     if (room.storey != storey) continue;
