@@ -190,7 +190,7 @@ class Measurement {
   bool isLost(const Pixel& at, float luck) const {
     const float z = seen_.depth(at.x, at.y);
     const float signal = seen_.infrared(at.x, at.y) / (z * z);
-    const float strictness = std::max(0.1F, 1.0F + 0.3F * luck);
+    const float strictness = std::max(0.4F, 1.0F + 0.2F * luck);
     return signal < static_cast<float>(noise_.leastSignal) * strictness ||
            signal > static_cast<float>(noise_.mostSignal) ||
            seen_.cosine(at.x, at.y) < static_cast<float>(noise_.leastCosine) * strictness;
