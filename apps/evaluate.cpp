@@ -202,6 +202,8 @@ constexpr std::array kKinds = {&kRelations, &kTrajectory, &kPrediction, &kNoise,
 void addCommonOptions(CLI::App& kind, EvaluateOptions& options, bool againstTruthFiles) {
   if (!againstTruthFiles) {
     kind.add_option("MAP", options.maps, "the map file")->required()->expected(1);
+    kind.add_option("--poses", options.poses, "refined (default) or travelled: as before all refinement")
+        ->check(CLI::IsMember({"refined", "travelled"}));
     return;
   }
   kind.add_option("MAP", options.maps, "the map file; several are scored together")->required();
@@ -259,8 +261,6 @@ void addEvaluate(CLI::App& program) {
     auto options = std::make_shared<EvaluateOptions>();
     addCommonOptions(*subcommand, *options, kind->againstTruthFiles);
     kind->addOptions(*subcommand, *options);
-    subcommand->add_option("--poses", options->poses, "refined (default) or travelled: as before all refinement")
-        ->check(CLI::IsMember({"refined", "travelled"}));
     subcommand->add_flag("--json", options->json, "as JSON (docs/evaluation.md)");
     subcommand->callback([options, evaluate = kind->evaluate] { evaluate(*options); });
   }

@@ -6,6 +6,7 @@
 
 #include "evaluate_kinds.hpp"
 #include "prediction_table.hpp"
+#include "score_report.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -17,20 +18,9 @@ namespace prodomos::apps {
 namespace {
 
 using evaluation::PredictionScore;
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
-
-/// A measure that cannot be taken is null.
-json measure(std::optional<double> value) {
-  return value ? json(*value) : json(nullptr);
-}
-
-json errorsOf(std::vector<double> errors, double unit = 1.0) {
-  if (errors.empty()) return nullptr;
-  for (double& error : errors) error *= unit;
-  return toJson(evaluation::statisticsOf(std::move(errors)));
-}
 
 json toJson(const evaluation::DetectionCounts& counts) {
   return {{"recall", measure(counts.all.recall())},
@@ -140,7 +130,6 @@ json worstBuildings(const std::vector<ScoredMap>& maps) {
   json worst = json::object();
   for (const auto& compared : evaluation::comparedMeasures()) {
     const auto* map = findWorst(maps, compared);
-    worst[compared.name] = nullptr;
     if (map == nullptr) continue;
     worst[compared.name] = {{"building", map->building}, {"map", map->map}, {"value", *compared.value(map->score)}};
   }
@@ -152,10 +141,9 @@ json reportOf(const PredictionScore& pooled, const std::vector<ScoredMap>& maps)
   report["worst"] = worstBuildings(maps);
   report["buildings"] = json::array();
   for (const auto& map : maps) {
-    json building = toJson(map.score);
-    building["building"] = map.building;
-    building["map"] = map.map;
-    report["buildings"].push_back(building);
+    json building = {{"building", map.building}, {"map", map.map}};
+    building.update(toJson(map.score));
+    report["buildings"].push_back(std::move(building));
   }
   return report;
 }
@@ -172,16 +160,26 @@ ScoredMap scoreMap(const MapAndTruth& pair) {
 }
 
 void evaluatePrediction(const EvaluateOptions& options) {
+  const auto files = mapsAndTruths(options);
   std::vector<ScoredMap> maps;
   PredictionScore pooled;
-  for (const auto& pair : mapsAndTruths(options)) {
+  for (const auto& pair : files) {
     maps.push_back(scoreMap(pair));
     pooled += maps.back().score;
   }
+  const std::string title = "prediction of " + (maps.size() == 1 ? maps[0].map : std::to_string(maps.size()) + " maps");
+  const json report = reportOf(pooled, maps);
+  if (!options.html.empty()) {
+    std::vector<evaluation::ScorePicture> pictures;
+    if (const auto calibration = evaluation::calibrationOf(pooled.bets)) {
+      pictures.push_back(evaluation::reliabilityPicture(*calibration));
+    }
+    writeReportPage(options.html, title, report, std::move(pictures), files);
+  }
   if (options.json) {
-    std::cout << reportOf(pooled, maps).dump(2) << '\n';
+    std::cout << report.dump(2) << '\n';
   } else {
-    printTable(pooled, maps);
+    printTable(title, pooled, maps);
   }
 }
 

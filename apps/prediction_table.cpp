@@ -108,8 +108,9 @@ const ScoredMap* findWorst(const std::vector<ScoredMap>& maps, const evaluation:
   return worst;
 }
 
-void printTable(const evaluation::PredictionScore& pooled, const std::vector<ScoredMap>& maps) {
-  std::cout << (maps.size() == 1 ? maps.front().map : std::to_string(maps.size()) + " maps") << " against the truth\n";
+void printTable(const std::string& title, const evaluation::PredictionScore& pooled,
+                const std::vector<ScoredMap>& maps) {
+  std::cout << title << '\n';
   printDetections(pooled);
   printNodes(pooled.nodes);
   printFreeSpace(pooled.freeSpace);

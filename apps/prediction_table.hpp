@@ -21,6 +21,7 @@ struct ScoredMap {
 const ScoredMap* findWorst(const std::vector<ScoredMap>& maps, const evaluation::Measure& measure);
 
 /// To the standard output; "-" where a measure cannot be taken.
-void printTable(const evaluation::PredictionScore& pooled, const std::vector<ScoredMap>& maps);
+void printTable(const std::string& title, const evaluation::PredictionScore& pooled,
+                const std::vector<ScoredMap>& maps);
 
 }  // namespace prodomos::apps

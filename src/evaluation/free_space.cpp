@@ -60,6 +60,7 @@ FreeSpaceLevel scoreLevel(const Scene& scene, double threshold) {
   for (const auto& space : scene.claims.spaces) {
     const Polygon* outline = findArea(space, threshold);
     if (outline == nullptr || !space.storey || !space.mobility) continue;
+    ++level.areas;
     level.byMobility[static_cast<std::size_t>(*space.mobility)] += countCells(scene, space, *outline);
     if (const auto* door = scene.findDoor(space.cause)) {
       ++level.doors;
@@ -106,6 +107,7 @@ std::optional<double> FreeSpaceLevel::halfDiscPrecision() const {
 
 FreeSpaceLevel& FreeSpaceLevel::operator+=(const FreeSpaceLevel& other) {
   for (std::size_t i = 0; i < byMobility.size(); ++i) byMobility[i] += other.byMobility[i];
+  areas += other.areas;
   gained += other.gained;
   doors += other.doors;
   add(halfDiscRight, other.halfDiscRight);
@@ -114,7 +116,7 @@ FreeSpaceLevel& FreeSpaceLevel::operator+=(const FreeSpaceLevel& other) {
 }
 
 std::optional<double> FreeSpaceScore::areaGainPercent(std::size_t level) const {
-  if (observedFree <= 0.0) return std::nullopt;
+  if (observedFree <= 0.0 || levels[level].areas == 0) return std::nullopt;
   return 100.0 * static_cast<double>(levels[level].gained) * kCell * kCell / observedFree;
 }
 

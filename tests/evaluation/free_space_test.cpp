@@ -29,7 +29,10 @@ TEST_F(FreeSpace, OfNothingIsNoMeasure) {
   EXPECT_FALSE(level().overall().precision());
   EXPECT_FALSE(level().areaPerDoor());
   EXPECT_FALSE(level().halfDiscPrecision());
-  EXPECT_EQ(score().areaGainPercent(0), 0.0);
+  EXPECT_FALSE(score().areaGainPercent(0));
+  predict(0, rectangle(1, 3, 3, 5));
+  EXPECT_TRUE(score().areaGainPercent(0));
+  EXPECT_FALSE(score().areaGainPercent(1));  // at another threshold
   grids.clear();
   EXPECT_FALSE(score().areaGainPercent(0));
 }

@@ -28,6 +28,7 @@ struct CellCounts {
 /// At one threshold.
 struct FreeSpaceLevel {
   std::array<CellCounts, 3> byMobility;  ///< of the cause, in the order of map::Mobility
+  std::size_t areas = 0;                 ///< predictions that have one
   std::size_t gained = 0;                ///< cells that the map knows only by prediction, in the end, each once
   std::size_t doors = 0;                 ///< predictions by doors that have an area
   ByRadius halfDiscRight{};              ///< cells that were unknown, of half-discs behind the same doors
@@ -45,7 +46,7 @@ struct FreeSpaceScore {
   std::array<FreeSpaceLevel, kThresholds.size()> levels;  ///< in the order of kThresholds
   double observedFree = 0.0;                              ///< m² that the map has observed to be free
 
-  /// Of the observed free area; none where nothing was observed.
+  /// Of the observed free area; none where nothing was observed or predicted.
   std::optional<double> areaGainPercent(std::size_t level) const;
   FreeSpaceScore& operator+=(const FreeSpaceScore& other);
 };
