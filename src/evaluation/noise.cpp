@@ -40,8 +40,8 @@ struct Shape {
   bool covers(const Eigen::Vector2d& spot, double tolerance) const {
     const Eigen::Vector2d away = spot - Eigen::Vector2d(pose_in_world.x, pose_in_world.y);
     if (radius > 0.0) return away.norm() <= radius + tolerance;
-    const Eigen::Vector2d in_shape = Eigen::Rotation2Dd(-pose_in_world.theta) * away;
-    return (in_shape.cwiseAbs().array() <= half.array() + tolerance).all();
+    const Eigen::Vector2d spot_in_shape = Eigen::Rotation2Dd(-pose_in_world.theta) * away;
+    return (spot_in_shape.cwiseAbs().array() <= half.array() + tolerance).all();
   }
 };
 
@@ -68,11 +68,11 @@ bool isInside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d
 }
 
 /// The box as seen from above, its heights those above the floor.
-Shape shapeOf(const TrueObject& object, const geometry::Pose3& T_world_object, double floor_z, Matter matter) {
+Shape shapeOf(const TrueObject& object, const geometry::Pose3& T_world_object, double floorHeight, Matter matter) {
   const auto T_world_level = geometry::levelled(T_world_object);
   const Eigen::Matrix3d tilt = T_world_level.linear().transpose() * T_world_object.linear();
   const Eigen::Vector3d half = 0.5 * tilt.cwiseAbs() * object.size;
-  const double middle = T_world_object.translation().z() - floor_z;
+  const double middle = T_world_object.translation().z() - floorHeight;
   return {.pose_in_world = geometry::toPose2(T_world_object),
           .half = half.head<2>(),
           .lowest = middle - half.z(),
@@ -86,15 +86,15 @@ bool isSamePlace(const geometry::Pose3& a, const geometry::Pose3& b) {
 }
 
 /// Where it stood, the last place as structure.
-std::vector<Shape> shapesOf(const TrueObject& object, double floor_z) {
+std::vector<Shape> shapesOf(const TrueObject& object, double floorHeight) {
   std::vector<Shape> shapes;
   if (object.poses.empty()) return shapes;
   const auto& last = object.poses.back().T_world_object;
-  shapes.push_back(shapeOf(object, last, floor_z, Matter::kStructure));
+  shapes.push_back(shapeOf(object, last, floorHeight, Matter::kStructure));
   const geometry::Pose3* before = &last;
   for (const auto& pose : object.poses) {
     if (isSamePlace(pose.T_world_object, *before) || isSamePlace(pose.T_world_object, last)) continue;
-    shapes.push_back(shapeOf(object, pose.T_world_object, floor_z, Matter::kMovedThing));
+    shapes.push_back(shapeOf(object, pose.T_world_object, floorHeight, Matter::kMovedThing));
     before = &pose.T_world_object;
   }
   return shapes;
@@ -159,7 +159,7 @@ class TrueSpace::Storey {
  public:
   Storey(const Truth& truth, int storey, double tolerance)
       : tolerance_(tolerance), ceilingHeight_(truth.storeys[static_cast<std::size_t>(storey)].ceilingHeight) {
-    const double floor_z = truth.storeys[static_cast<std::size_t>(storey)].floor_z;
+    const double floorHeight = truth.storeys[static_cast<std::size_t>(storey)].floor_z;
     for (const auto& room : truth.rooms) {
       if (room.storey == storey) add(room.outline);
     }
@@ -167,7 +167,7 @@ class TrueSpace::Storey {
       std::ranges::for_each(shapes, [&](auto& s) { add(s); });
     };
     for (const auto& object : truth.objects) {
-      if (object.storey == storey) addAll(shapesOf(object, floor_z));
+      if (object.storey == storey) addAll(shapesOf(object, floorHeight));
     }
     for (const auto& door : truth.doors) {
       if (door.storey == storey) addAll(shapesOf(door));
@@ -297,10 +297,10 @@ bool isInDoor(const Truth& truth, int storey, const Eigen::Vector2d& spot) {
   constexpr double kFrame = 0.15;  // metres, on either side
   return std::ranges::any_of(truth.doors, [&](const TrueDoor& door) {
     if (door.storey != storey) return false;
-    const Eigen::Vector3d in_door =
+    const Eigen::Vector3d spot_in_door =
         door.T_world_door.inverse() * Eigen::Vector3d(spot.x(), spot.y(), door.T_world_door.translation().z());
-    return std::abs(in_door.x()) <= 0.5 * door.wallThickness + kFrame &&
-           std::abs(in_door.y()) <= 0.5 * door.width + kFrame;
+    return std::abs(spot_in_door.x()) <= 0.5 * door.wallThickness + kFrame &&
+           std::abs(spot_in_door.y()) <= 0.5 * door.width + kFrame;
   });
 }
 
@@ -327,7 +327,7 @@ void countWalls(const map::OccupancyGrid& grid, const Truth& truth, int storey, 
 /// Each voxel once, however many sub-maps have it.
 void countPoints(const map::MapView& view, const std::map<base::SubMapId, geometry::Pose3>& T_world_submap,
                  const Truth& truth, const TrueSpace& space, int storey, NoiseScore& score) {
-  const double floor_z = truth.storeys[static_cast<std::size_t>(storey)].floor_z;
+  const double floorHeight = truth.storeys[static_cast<std::size_t>(storey)].floor_z;
   std::set<std::array<int, 3>> seen;
   for (const auto id : subMapsOf(T_world_submap, truth, storey)) {
     const auto layer = view.findLayer<map::PointLayer>(id);
@@ -340,7 +340,7 @@ void countPoints(const map::MapView& view, const std::map<base::SubMapId, geomet
                .second) {
         continue;
       }
-      const double height = position.z() - floor_z;
+      const double height = position.z() - floorHeight;
       score.points->add(space.at(storey, position.head<2>(), height, height));
     }
   }
