@@ -146,11 +146,12 @@ std::vector<Detection> detect(cv::dnn::Net& net, const cv::Mat& image) {
   std::vector<float> scores;
   for (const cv::Mat& output : outputs) {
     for (int i = 0; i < output.rows; ++i) {
+      // Middle and size as shares of the image, objectness, scores by class.
       const float* row = output.ptr<float>(i);
       if (row[5] < 0.1F) continue;
-      const cv::Size2d size(row[2] * image.cols, row[3] * image.rows);
-      boxes.emplace_back(cv::Point2d(row[0] * image.cols - size.width / 2, row[1] * image.rows - size.height / 2),
-                         size);
+      const cv::Size2d size(double{row[2]} * image.cols, double{row[3]} * image.rows);
+      const cv::Point2d middle(double{row[0]} * image.cols, double{row[1]} * image.rows);
+      boxes.emplace_back(middle - cv::Point2d(size) / 2.0, size);
       scores.push_back(row[5]);
     }
   }
