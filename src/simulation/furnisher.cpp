@@ -67,7 +67,7 @@ Thing Furnisher::make(std::string_view kind, bool varies) {
 std::optional<Thing> Furnisher::add(Thing thing, const geometry::Pose2& pose, double bottom) {
   if (isFull()) return std::nullopt;
   thing.id = space_.room().id + "/" + thing.kind + "_" + std::to_string(space_.addedCount() + 1);
-  thing.T_world_thing = geometry::toPose3(pose, space_.floor_z() + bottom + thing.size.z() / 2.0);
+  thing.T_world_thing = geometry::toPose3(pose, space_.floorLevel() + bottom + thing.size.z() / 2.0);
   if (!space_.tryAdd(thing)) return std::nullopt;
   return thing;
 }

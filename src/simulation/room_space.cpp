@@ -234,23 +234,24 @@ std::size_t RoomSpace::flood() {
 
 bool RoomSpace::fits(const Thing& thing) const {
   const auto volume = volumeOf(thing);
-  if (!isWithin(room_.outline, volume.footprint) || volume.top > floor_z() + ceilingHeight()) return false;
+  if (!isWithin(room_.outline, volume.footprint) || volume.top > floorLevel() + ceilingHeight()) return false;
   const auto meets = [&](const Footprint& other) { return overlap(other, volume.footprint); };
   const auto meetsVolume = [&](const Volume& other) {
     return volume.bottom < other.top - 1e-6 && other.bottom < volume.top - 1e-6 && meets(other.footprint);
   };
   if (std::ranges::any_of(taken_, meetsVolume)) return false;
   if (hangs(thing)) return std::ranges::none_of(hidden_, meets) && !standsBefore(thing);
-  const bool stands = volume.bottom < floor_z() + kOnFloor;
+  const bool stands = volume.bottom < floorLevel() + kOnFloor;
   if (stands && std::ranges::any_of(inView_, meetsVolume)) return false;
-  return volume.bottom > floor_z() + kHeadroom || std::ranges::none_of(clear_, meets);
+  return volume.bottom > floorLevel() + kHeadroom || std::ranges::none_of(clear_, meets);
 }
 
 /// Is it hidden by something that stands at the wall?
 bool RoomSpace::standsBefore(const Thing& thing) const {
   const auto view = viewOf(thing);
   return std::ranges::any_of(taken_, [&](const Volume& other) {
-    return other.bottom < floor_z() + kOnFloor && view.bottom < other.top && overlap(other.footprint, view.footprint);
+    return other.bottom < floorLevel() + kOnFloor && view.bottom < other.top &&
+           overlap(other.footprint, view.footprint);
   });
 }
 
@@ -291,7 +292,7 @@ void RoomSpace::take(const Thing& thing) {
 bool RoomSpace::tryAdd(const Thing& thing) {
   if (!fits(thing)) return false;
   const auto volume = volumeOf(thing);
-  const bool stands = !hangs(thing) && volume.bottom < floor_z() + kOnFloor;
+  const bool stands = !hangs(thing) && volume.bottom < floorLevel() + kOnFloor;
   if (stands && !leavesWays(volume.footprint)) return false;
   take(thing);
   added_.push_back(thing);

@@ -24,7 +24,7 @@ class RoomSpace {
   RoomSpace(const Building& building, int room);
 
   const Room& room() const { return room_; }
-  double floor_z() const { return storey_.floor_z; }
+  double floorLevel() const { return storey_.floor_z; }
   double ceilingHeight() const { return storey_.ceilingHeight; }
   const std::vector<WallStretch>& walls() const { return walls_; }
   /// Of the free floor, in reach of the doors with room to walk.
