@@ -22,7 +22,7 @@ constexpr double kDegree = kPi / 180.0;
 constexpr double kPlainStep = 0.39;
 constexpr double kPlainSpeed = 0.65;  // 1/s
 /// Knees are never quite straight.
-constexpr double kLegReach = 0.994;
+constexpr double kLegReach = 0.998;
 /// In steps: the hips are lowest a little before both feet carry.
 constexpr double kBobPhase = 0.07;
 
