@@ -30,6 +30,7 @@ std::string numbered(const char* kind, int storey, std::size_t number) {
 
 std::vector<Storey> stackedStoreys(int count, double height) {
   std::vector<Storey> storeys;
+  storeys.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) storeys.push_back({.floor_z = i * height, .ceilingHeight = height - kSlab});
   return storeys;
 }

@@ -35,9 +35,9 @@ constexpr std::array<Rgb, 4> kStoneColors{{{188, 184, 176}, {164, 160, 156}, {19
 constexpr std::array<Rgb, 5> kCarpetColors{
     {{86, 96, 116}, {112, 104, 98}, {84, 108, 98}, {128, 92, 84}, {98, 98, 102}}};
 
-template <std::size_t n>
-Rgb pick(const std::array<Rgb, n>& colors, base::Random& random) {
-  return colors[static_cast<std::size_t>(random.integer(0, static_cast<int>(n) - 1))];
+template <std::size_t kCount>
+Rgb pick(const std::array<Rgb, kCount>& colors, base::Random& random) {
+  return colors[static_cast<std::size_t>(random.integer(0, static_cast<int>(kCount) - 1))];
 }
 
 Rgb scaled(const Rgb& color, double factor) {
@@ -132,7 +132,7 @@ HouseLook::HouseLook(const Building& building, std::uint64_t seed) : building_(b
   frame_ = painted(pick(kFrameColors, random), random);
   skirting_ = random.uniform() < 0.5 ? frame_ : painted({118, 112, 104}, random);
   stairs_ = speckled(pick(kStoneColors, random), 0.3, random);
-  handrail_ = random.uniform() < 0.5 ? wooden(pick(kWoodColors, random), random) : metal();
+  handrail_ = random.uniform() < 0.5 ? painted(pick(kWoodColors, random), random) : metal();
   roomLeaf_ = leafOf(random);
   hallLeaf_ = leafOf(random);
 }

@@ -40,7 +40,7 @@ class HouseLook {
   Material handrail() const { return handrail_; }
   Material metal() const;
   Material glass() const;
-  DoorLook door(std::size_t door) const;
+  DoorLook door(std::size_t index) const;
 
   double dadoHeight() const { return dadoHeight_; }
   double skirtingHeight() const { return skirtingHeight_; }

@@ -67,19 +67,19 @@ void addStairs(std::uint64_t seed, std::size_t roomsOfStorey, double storeyHeigh
     for (int storey = 0; storey < std::max(1, storeys - 1); ++storey) {
       const int here = static_cast<int>(i) + storey * static_cast<int>(roomsOfStorey);
       const int above = storey + 1 < storeys ? here + static_cast<int>(roomsOfStorey) : kOutside;
-      const double floor_z = building.storeys[static_cast<std::size_t>(storey)].floor_z;
+      const double floorLevel = building.storeys[static_cast<std::size_t>(storey)].floor_z;
       for (Staircase flight : plan->flights) {
         flight.id = "s" + std::to_string(storey) + "." + std::to_string(building.stairs.size());
         flight.lowerStorey = storey;
         flight.upperStorey = storey + 1;
         flight.rooms = {here, above};
-        flight.foot.z() += floor_z;
+        flight.foot.z() += floorLevel;
         building.stairs.push_back(flight);
       }
       if (!plan->landing) continue;
       building.landings.push_back(*plan->landing);
       building.landings.back().lowerStorey = storey;
-      building.landings.back().z += floor_z;
+      building.landings.back().z += floorLevel;
     }
   }
 }

@@ -129,8 +129,8 @@ class LeafBuilder {
     const double x = width_ - kFromEdge;
     addBox(metal, {x, onSide(side, kPlateDepth), kHeight - 0.04}, {0.04, kPlateDepth, 0.22});
     addBox(metal, {x, onSide(side, kNeck), kHeight}, {0.018, kNeck, 0.018});
-    const double lever_y = side > 0.0 ? kNeck : -kLeafThickness - kNeck;
-    addBox(metal, {x + 0.009 - look_.leverLength / 2.0, lever_y, kHeight}, {look_.leverLength, 0.016, 0.02});
+    const double leverOffset = side > 0.0 ? kNeck : -kLeafThickness - kNeck;
+    addBox(metal, {x + 0.009 - look_.leverLength / 2.0, leverOffset, kHeight}, {look_.leverLength, 0.016, 0.02});
   }
 
   /// A sheet on both sides of the leaf.
@@ -218,17 +218,17 @@ void addFrame(const Building& building, std::size_t index, const HouseLook& look
   surfaces.push_back(std::move(frame));
 }
 
-std::vector<Surface> leavesAt(const Building& building, std::size_t index, double time, std::uint64_t seed) {
-  const Door& door = building.doors[index];
+std::vector<Surface> leavesAt(const Building& building, std::size_t door, double time, std::uint64_t seed) {
+  const Door& hung = building.doors[door];
   const HouseLook house(building, seed);
-  const DoorLook look = house.door(index);
-  const bool isLift = isLiftDoor(building, door);
-  const Tunnel tunnel = tunnelOf(building, door);
-  const double plane = hingePlane(building, door, look);
-  const double angle = isLift ? 0.0 : openingAngle(door, time);
-  const LeafBuilder builder(door, tunnel.height, look, classId(isLift ? "lift_door" : "door"), doorInstance(index));
+  const DoorLook look = house.door(door);
+  const bool isLift = isLiftDoor(building, hung);
+  const Tunnel tunnel = tunnelOf(building, hung);
+  const double plane = hingePlane(building, hung, look);
+  const double angle = isLift ? 0.0 : openingAngle(hung, time);
+  const LeafBuilder builder(hung, tunnel.height, look, classId(isLift ? "lift_door" : "door"), doorInstance(door));
   std::vector<Surface> leaves;
-  for (const Hinge& hinge : hingesOf(door)) {
+  for (const Hinge& hinge : hingesOf(hung)) {
     const auto T_world_leaf = leafPose(tunnel, hinge, plane, angle);
     for (auto& part : builder.build(house, isLift)) {
       leaves.push_back(transformed(T_world_leaf, hinge.turn > 0.0 ? std::move(part) : mirrored(std::move(part))));

@@ -18,7 +18,7 @@ namespace prodomos::simulation {
 /// around.
 struct Level {
   Room room;
-  double floor_z = 0.0;
+  double floorHeight = 0.0;
   double ceilingHeight = 2.8;
   bool isModelled = true;
   std::vector<Polygon> floorHoles;
@@ -29,16 +29,16 @@ std::vector<Level> levelsOf(const Building& building);
 /// Of one room: floor, ceiling, walls with their openings, skirting, and the slab's edge around holes in the ceiling.
 void addRoom(const Building& building, const Level& level, const HouseLook& look, std::vector<Surface>& surfaces);
 
-/// Between the two rooms of a door: threshold, reveals and lintel.
-void addTunnel(const Building& building, std::size_t door, const HouseLook& look, std::vector<Surface>& surfaces);
+/// Between the two rooms of the door of that index: threshold, reveals and lintel.
+void addTunnel(const Building& building, std::size_t index, const HouseLook& look, std::vector<Surface>& surfaces);
 /// The boards around the opening on both sides; nothing of a passage.
-void addFrame(const Building& building, std::size_t door, const HouseLook& look, std::vector<Surface>& surfaces);
+void addFrame(const Building& building, std::size_t index, const HouseLook& look, std::vector<Surface>& surfaces);
 /// Whether the opening has a frame. Passages, which are wide or reach up to the ceiling, have none.
 bool hasFrame(const Building& building, const Door& door);
 
 /// Steps, underside and handrails of one flight.
-void addFlight(const Building& building, std::size_t stairs, const HouseLook& look, std::vector<Surface>& surfaces);
-void addLanding(const Building& building, std::size_t landing, const HouseLook& look, std::vector<Surface>& surfaces);
+void addFlight(const Building& building, std::size_t index, const HouseLook& look, std::vector<Surface>& surfaces);
+void addLanding(const Building& building, std::size_t index, const HouseLook& look, std::vector<Surface>& surfaces);
 /// Around the holes in the floor, but for walls and where flights begin and end.
 void addRailings(const Building& building, const Level& level, const HouseLook& look, std::vector<Surface>& surfaces);
 

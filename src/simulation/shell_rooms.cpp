@@ -67,7 +67,7 @@ std::vector<std::array<double, 2>> floorGaps(const Level& level, const Edge& edg
 /// The face of a wall along an edge of a room's outline, seen from inside.
 class WallFace {
  public:
-  WallFace(const Edge& edge, double floor_z) : edge_(edge), floor_z_(floor_z) {}
+  WallFace(const Edge& edge, double floorHeight) : edge_(edge), floorHeight_(floorHeight) {}
 
   /// From one place along the edge to another, from one height above the floor to another, and standing out.
   void add(Surface& surface, std::array<double, 2> along, std::array<double, 2> heights, double out = 0.0) const {
@@ -89,11 +89,11 @@ class WallFace {
 
  private:
   Eigen::Vector3d at(double along, double height, double out) const {
-    return lifted(edge_.from + along * edge_.direction() - out * edge_.outward(), floor_z_ + height);
+    return lifted(edge_.from + along * edge_.direction() - out * edge_.outward(), floorHeight_ + height);
   }
 
   Edge edge_;
-  double floor_z_;
+  double floorHeight_;
 };
 
 void addTriangles(Surface& surface, const std::vector<std::array<Eigen::Vector2d, 3>>& triangles, double z,
@@ -125,7 +125,7 @@ void addWalls(const Building& building, const Level& level, const HouseLook& loo
   const double split = dado ? look.dadoHeight() : 0.0;
   for (std::size_t i = 0; i < level.room.outline.size(); ++i) {
     const Edge edge = edgeOf(level.room.outline, i);
-    const WallFace face(edge, level.floor_z);
+    const WallFace face(edge, level.floorHeight);
     const auto addPiece = [&](double from, double to, double bottom) {
       face.add(lower, {from, to}, {bottom, split});
       face.add(upper, {from, to}, {std::max(bottom, split), level.ceilingHeight});
@@ -192,14 +192,14 @@ std::vector<Level> levelsOf(const Building& building) {
   const int top = static_cast<int>(building.storeys.size());
   for (const auto& room : building.rooms) {
     const auto& storey = building.storeys[static_cast<std::size_t>(room.storey)];
-    levels.push_back({.room = room, .floor_z = storey.floor_z, .ceilingHeight = storey.ceilingHeight});
+    levels.push_back({.room = room, .floorHeight = storey.floor_z, .ceilingHeight = storey.ceilingHeight});
   }
   for (const auto& stairs : building.stairs) {
     if (stairs.upperStorey < top || stairs.rooms[0] == kOutside) continue;
     Level above = levels[static_cast<std::size_t>(stairs.rooms[0])];
     above.room.storey = stairs.upperStorey;
     above.room.id += "'";
-    above.floor_z = floorOf(building, stairs.upperStorey);
+    above.floorHeight = floorOf(building, stairs.upperStorey);
     above.isModelled = false;
     const auto isSame = [&](const Level& level) { return level.room.id == above.room.id; };
     if (std::ranges::none_of(levels, isSame)) levels.push_back(std::move(above));
@@ -213,16 +213,16 @@ std::vector<Level> levelsOf(const Building& building) {
 
 void addRoom(const Building& building, const Level& level, const HouseLook& look, std::vector<Surface>& surfaces) {
   Surface floor{.material = look.floor(level.room), .classId = classId("floor")};
-  addTriangles(floor, triangulate(level.room.outline, level.floorHoles), level.floor_z, true);
+  addTriangles(floor, triangulate(level.room.outline, level.floorHoles), level.floorHeight, true);
   Surface ceiling{.material = look.ceiling(), .classId = classId("ceiling")};
-  const double ceiling_z = level.floor_z + level.ceilingHeight;
-  addTriangles(ceiling, triangulate(level.room.outline, level.ceilingHoles), ceiling_z, false);
+  const double ceilingLevel = level.floorHeight + level.ceilingHeight;
+  addTriangles(ceiling, triangulate(level.room.outline, level.ceilingHoles), ceilingLevel, false);
   surfaces.insert(surfaces.end(), {std::move(floor), std::move(ceiling)});
   addWalls(building, level, look, surfaces);
 
   Surface slab{.material = look.wall(level.room), .classId = classId("wall")};
   for (const auto& hole : level.ceilingHoles) {
-    addSlabEdge(hole, ceiling_z, floorOf(building, level.room.storey + 1), slab);
+    addSlabEdge(hole, ceilingLevel, floorOf(building, level.room.storey + 1), slab);
   }
   if (!slab.triangles.empty()) surfaces.push_back(std::move(slab));
 }

@@ -94,7 +94,7 @@ bool isFlightsEnd(const Building& building, const Level& level, const Eigen::Vec
         stairs.width / 2.0 * Eigen::Vector2d(-std::sin(stairs.direction), std::cos(stairs.direction));
     constexpr double kTolerance = 0.05;
     const auto isAt = [&](const Eigen::Vector3d& end) {
-      return std::abs(end.z() - level.floor_z) < kTolerance &&
+      return std::abs(end.z() - level.floorHeight) < kTolerance &&
              isOnLine(point, {end.head<2>() - across, end.head<2>() + across}, kTolerance);
     };
     return isAt(stairs.foot) || isAt(headOf(stairs));
@@ -186,7 +186,7 @@ void addRailings(const Building& building, const Level& level, const HouseLook& 
         while (!isOpen(to)) ++to;
         const Eigen::Vector2d aside = kFromEdge * edge.outward();
         const auto lifted = [&](const Eigen::Vector2d& point) -> Eigen::Vector3d {
-          return {point.x(), point.y(), level.floor_z};
+          return {point.x(), point.y(), level.floorHeight};
         };
         addRail(lifted(at(from) + aside), lifted(at(to) + aside), rails);
         from = to;

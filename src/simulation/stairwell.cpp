@@ -67,8 +67,9 @@ class WalkableFloor {
   static constexpr double kCell = 0.1;
 
   Eigen::Vector2d middleOf(std::size_t cell) const {
-    return least_ + kCell * Eigen::Vector2d(static_cast<double>(cell % columns_) + 0.5,
-                                            static_cast<double>(cell / columns_) + 0.5);
+    const std::size_t row = cell / columns_;
+    const std::size_t column = cell % columns_;
+    return least_ + kCell * Eigen::Vector2d(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
   }
 
   /// A number from 1 on for each connected piece, 0 where nobody walks.
