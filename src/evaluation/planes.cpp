@@ -8,7 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <map>
+#include <numbers>
 
 namespace prodomos::evaluation {
 
@@ -27,7 +28,7 @@ Eigen::Vector3d eyeInSubMap(const std::vector<TimedPose>& way_in_submap, base::T
 
 /// Its normal and the x-axis of its plane turned over; outlines keep their places.
 void turnOver(MappedPlane& plane) {
-  plane.T_world_patch = plane.T_world_patch * Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX());
+  plane.T_world_patch = plane.T_world_patch * Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX());
   for (auto& corner : plane.outline_in_patch) corner.y() = -corner.y();
 }
 
