@@ -11,7 +11,7 @@ std::span<const ThingKind> thingKinds() {
   using Size = Eigen::Vector3d;
   constexpr bool kHangs = true;
   // Depth, width and height of the smallest and the largest; what stands on something or hangs: its bottom.
-  static const std::array kinds{
+  static const std::array kKinds{
       ThingKind{"desk", "table", Size(0.7, 1.2, 0.72), Size(0.8, 1.7, 0.75)},
       ThingKind{"school_desk", "table", Size(0.5, 1.2, 0.70), Size(0.55, 1.3, 0.76)},
       ThingKind{"table", "table", Size(0.8, 1.2, 0.72), Size(1.0, 1.8, 0.76)},
@@ -68,7 +68,7 @@ std::span<const ThingKind> thingKinds() {
       ThingKind{"floor_lamp", "lamp", Size(0.32, 0.32, 1.4), Size(0.42, 0.42, 1.7)},
       ThingKind{"ceiling_lamp", "lamp", Size(0.3, 1.15, 0.06), Size(0.6, 1.25, 0.08), 2.6},
   };
-  return kinds;
+  return kKinds;
 }
 
 const ThingKind* findThingKind(std::string_view name) {

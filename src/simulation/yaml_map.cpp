@@ -73,6 +73,7 @@ std::string shown(const YAML::Node& node) {
     return "a list of " + std::to_string(node.size());
   }
   std::vector<std::string> items;
+  items.reserve(node.size());
   for (const auto& item : node) items.push_back(item.Scalar());
   return "[" + joined(items) + "]";
 }
