@@ -93,6 +93,8 @@ void hangLeaves(std::uint64_t seed, Building& building) {
       if (angle <= widest) continue;
       widest = angle;
       door = tried;
+      constexpr double kEnough = 85.0 * kDegree;
+      if (widest >= kEnough) break;
     }
   }
 }

@@ -11,8 +11,8 @@ namespace prodomos::simulation {
 /// How far the door's leaves open before they meet a wall, radians up to 95°.
 double widestAngle(const Building& building, const Door& door);
 
-/// On which side each door's leaf hangs and into which room it opens: mostly the smaller one, never a stairwell, and
-/// where it has space.
+/// On which side each door's leaf hangs and into which room it opens: mostly the smaller one, and away from
+/// stairs; where it has space.
 void hangLeaves(std::uint64_t seed, Building& building);
 
 /// Which doors stand ajar or open, for the whole of the recording. Most are closed; those across a corridor mostly
