@@ -97,7 +97,7 @@ std::optional<Thing> Furnisher::addAtWall(std::string_view kind, int tries) {
     const bool inCorner = chance(0.3);
     const double place =
         inCorner ? (chance(0.5) ? margin : wall->length() - margin) : std::clamp(at, margin, wall->length() - margin);
-    if (const auto added = addAtWall(kind, *wall, place)) return added;
+    if (auto added = addAtWall(kind, *wall, place)) return added;
   }
   return std::nullopt;
 }
@@ -115,11 +115,11 @@ std::optional<Thing> Furnisher::addInTheMiddle(std::string_view kind) {
   const double heading = std::atan2(wall.inward().y(), wall.inward().x());
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const auto& corner : space_.room().outline) middle += corner / static_cast<double>(space_.room().outline.size());
-  if (const auto added = add(kind, {middle.x(), middle.y(), heading})) return added;
+  if (auto added = add(kind, {middle.x(), middle.y(), heading})) return added;
   for (int i = 0; i < kTries && space_.freeCells() > 0; ++i) {
     const auto cell =
         space_.freeCell(static_cast<std::size_t>(random_.integer(0, static_cast<int>(space_.freeCells()) - 1)));
-    if (const auto added = add(kind, {cell.x(), cell.y(), heading})) return added;
+    if (auto added = add(kind, {cell.x(), cell.y(), heading})) return added;
   }
   return std::nullopt;
 }
@@ -200,10 +200,9 @@ bool Furnisher::tableWithSeats(std::string_view table, std::string_view seat) {
 }
 
 /// Rows that face a wall, the first `begin` metres before it, `gap` from the middle of one to the next beside it. Where
-/// that were too many, they stand wider apart.
+/// those were more than `most`, they stand wider apart.
 void Furnisher::rows(const WallStretch& front, double begin, double pitch, double gap,
-                     bool (Furnisher::*add)(geometry::Pose2)) {
-  constexpr double kMost = 25.0;
+                     bool (Furnisher::*add)(geometry::Pose2), int most) {
   double depth = 0.0;
   double left = 0.0;
   double right = 0.0;
@@ -212,7 +211,7 @@ void Furnisher::rows(const WallStretch& front, double begin, double pitch, doubl
     left = std::min(left, front.along().dot(corner - front.from));
     right = std::max(right, front.along().dot(corner - front.from));
   }
-  const double wider = std::sqrt(std::max(1.0, (depth - begin) / pitch * (right - left) / gap / kMost));
+  const double wider = std::sqrt(std::max(1.0, (depth - begin) / pitch * (right - left) / gap / most));
   const double heading = std::atan2(front.inward().y(), front.inward().x());
   const int columns = std::max(1, static_cast<int>((right - left - 0.6) / (gap * wider)));
   for (double row = begin; row < depth - 0.5; row += pitch * wider) {

@@ -63,7 +63,8 @@ class Furnisher {
   void workplacesAtWalls(int count, std::string_view kind);
   void seatsAround(const Thing& table, std::string_view kind, double pitch);
   bool tableWithSeats(std::string_view table, std::string_view seat);
-  void rows(const WallStretch& front, double begin, double pitch, double gap, bool (Furnisher::*add)(geometry::Pose2));
+  void rows(const WallStretch& front, double begin, double pitch, double gap, bool (Furnisher::*add)(geometry::Pose2),
+            int most = 20);
   bool pupils(geometry::Pose2 desk);
   bool computerPlace(geometry::Pose2 desk);
   bool seat(geometry::Pose2 pose);

@@ -177,7 +177,7 @@ void Furnisher::lectureHall() {
   addAtWall("whiteboard", front, front.length() / 2.0);
   windows();
   addAtWall("counter");
-  rows(front, 2.8, random_.uniform(1.0, 1.2), random_.uniform(0.75, 0.9), &Furnisher::seat);
+  rows(front, 2.8, random_.uniform(1.0, 1.2), random_.uniform(0.75, 0.9), &Furnisher::seat, 56);
   decorate(4);
 }
 
