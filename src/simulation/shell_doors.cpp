@@ -83,7 +83,12 @@ double hingePlane(const Building& building, const Door& door, const DoorLook& lo
 class LeafBuilder {
  public:
   LeafBuilder(const Door& door, double height, const DoorLook& look, std::uint16_t classId, std::uint16_t instance)
-      : width_(leafWidthOf(door)), height_(height), look_(look), classId_(classId), instance_(instance) {}
+      : width_(leafWidthOf(door)),
+        height_(height),
+        isDouble_(door.leaves == 2),
+        look_(look),
+        classId_(classId),
+        instance_(instance) {}
 
   std::vector<Surface> build(const HouseLook& house, bool isSlidingDoor) const {
     std::vector<Surface> parts{
@@ -91,6 +96,8 @@ class LeafBuilder {
     if (isSlidingDoor) return parts;
     Surface metal = made(house.metal());
     for (const double side : {1.0, -1.0}) addHandle(side, metal);
+    // Two leaves meet on a strip: else they would look like one.
+    if (isDouble_) addOverlay(metal, {width_ - 0.015, width_}, {0.0, height_});
     if (look_.hasKickPlate) addOverlay(metal, {0.03, width_ - 0.03}, {0.03, 0.28});
     parts.push_back(std::move(metal));
     if (look_.hasWindow) {
@@ -144,6 +151,7 @@ class LeafBuilder {
 
   double width_;
   double height_;
+  bool isDouble_;
   const DoorLook& look_;
   std::uint16_t classId_;
   std::uint16_t instance_;
