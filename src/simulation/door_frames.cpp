@@ -54,7 +54,7 @@ std::optional<FramedOpening> openingOf(const Surface& frame) {
     if (corner.y() < middle.y()) right = std::max(right, corner.y());
     if (corner.z() > middle.z()) lintel = std::min(lintel, corner.z());
   }
-  FramedOpening opening{.floor_z = bounds.min().z(), .width = left - right, .height = lintel - bounds.min().z()};
+  FramedOpening opening{.bottom = bounds.min().z(), .width = left - right, .height = lintel - bounds.min().z()};
   constexpr double kNarrowest = 0.4;
   constexpr double kLowest = 1.5;
   if (opening.width < kNarrowest || opening.height < kLowest) return std::nullopt;

@@ -13,7 +13,7 @@ namespace prodomos::simulation {
 /// What a frame's mesh says of its door.
 struct FramedOpening {
   geometry::Pose2 pose;  ///< of the middle of the clear opening; x-axis: through it
-  double floor_z = 0.0;  ///< where its jambs begin
+  double bottom = 0.0;   ///< where its jambs begin
   double width = 0.0;    ///< clear, between the jambs
   double height = 0.0;   ///< clear, below the lintel
   Polygon footprint;     ///< of the whole frame, counter-clockwise

@@ -30,7 +30,7 @@ double lintelOver(const StoreyMesh& mesh, const geometry::Pose2& pose, double wi
     if (surface.classId != classId("wall")) continue;
     for (const auto& vertex : surface.vertices) {
       const Eigen::Vector2d p = inPose(pose, vertex.head<2>().cast<double>());
-      const double z = static_cast<double>(vertex.z()) - mesh.floor_z();
+      const double z = static_cast<double>(vertex.z()) - mesh.floor();
       if (std::abs(p.x()) < kBand && std::abs(p.y()) < width / 2.0 + 0.01 && z > kLowest) lintel = std::min(lintel, z);
     }
   }
@@ -80,18 +80,18 @@ Polygon cabinOf(const LiftPortal& portal) {
 void addCabin(StoreyMesh& mesh, const LiftPortal& portal) {
   const Polygon outline = cabinOf(portal);
   const auto at = [](const Eigen::Vector2d& p, double z) { return Eigen::Vector3d(p.x(), p.y(), z); };
-  const double top = mesh.floor_z() + portal.height;
+  const double top = mesh.floor() + portal.height;
   Surface walls{.material = {.color = {186, 190, 193}, .gloss = 0.5F}, .classId = classId("wall")};
   // All sides but the front, which runs from the last corner to the first; seen from inside.
   for (std::size_t i = 0; i + 1 < outline.size(); ++i) {
-    addRectangle(walls, at(outline[i + 1], mesh.floor_z()), at(outline[i] - outline[i + 1], 0.0),
+    addRectangle(walls, at(outline[i + 1], mesh.floor()), at(outline[i] - outline[i + 1], 0.0),
                  {0.0, 0.0, portal.height});
   }
   const Eigen::Vector3d x = at(outline[1] - outline[0], 0.0);
   const Eigen::Vector3d y = at(outline[3] - outline[0], 0.0);
   const Eigen::Vector3d threshold = -x.normalized() * portal.wallThickness;
   Surface floor{.material = {.color = {92, 94, 98}}, .classId = classId("floor")};
-  addRectangle(floor, at(outline[0], mesh.floor_z()) + threshold, x - threshold, y);
+  addRectangle(floor, at(outline[0], mesh.floor()) + threshold, x - threshold, y);
   Surface ceiling{.material = {.color = {230, 230, 228}}, .classId = classId("ceiling")};
   addRectangle(ceiling, at(outline[0], top), y, x);
   mesh.surfaces.insert(mesh.surfaces.end(), {std::move(walls), std::move(floor), std::move(ceiling)});
@@ -99,7 +99,7 @@ void addCabin(StoreyMesh& mesh, const LiftPortal& portal) {
   // Two jambs and a lintel on the wall before the cabin.
   constexpr double kBoard = 0.1;
   constexpr double kThickness = 0.02;
-  const geometry::Pose3 T_world_portal = geometry::toPose3(portal.pose, mesh.floor_z());
+  const geometry::Pose3 T_world_portal = geometry::toPose3(portal.pose, mesh.floor());
   const Material steel{.color = {150, 154, 158}, .gloss = 0.4F};
   const double face = -portal.wallThickness / 2.0 - kThickness / 2.0;
   const auto board = [&](double y_in_portal, double z, const Eigen::Vector3d& size) {

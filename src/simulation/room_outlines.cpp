@@ -196,7 +196,7 @@ std::vector<Polygon> bordersOf(const Raster& raster, int region) {
     }
     borders.push_back(std::move(border));
   }
-  std::ranges::stable_partition(borders, [](const Polygon& border) { return signedArea(border) > 0.0; });
+  std::stable_partition(borders.begin(), borders.end(), [](const Polygon& border) { return signedArea(border) > 0.0; });
   return borders;
 }
 

@@ -37,11 +37,11 @@ std::vector<Flight> takeFlights(StoreyMesh& mesh, Test isWanted, bool removes) {
 }
 
 bool leadsUp(const StoreyMesh& mesh, const Flight& flight) {
-  return std::abs(flight.stairs.foot.z() - mesh.floor_z()) < kSameLevel;
+  return std::abs(flight.stairs.foot.z() - mesh.floor()) < kSameLevel;
 }
 
 bool leadsDown(const StoreyMesh& mesh, const Flight& flight) {
-  return std::abs(headOf(flight.stairs).z() - mesh.floor_z()) < kSameLevel;
+  return std::abs(headOf(flight.stairs).z() - mesh.floor()) < kSameLevel;
 }
 
 Eigen::AlignedBox3d raised(const Eigen::AlignedBox2d& plan, double least, double most) {
@@ -112,14 +112,13 @@ void openLanding(StoreyMesh& upper, const Flight& flight, std::vector<std::strin
     }
     const Eigen::Vector2d margin = aside.cwiseAbs() * kRails;
     const Eigen::AlignedBox2d cut(gap.min() - margin, gap.max() + margin);
-    cutAway(upper, raised(cut, upper.floor_z() - 0.01, upper.ceiling_z() + 0.1),
-            {"wall", "handrail", "skirting", "sign"});
+    cutAway(upper, raised(cut, upper.floor() - 0.01, upper.ceiling() + 0.1), {"wall", "handrail", "skirting", "sign"});
     addFloor(upper, gap);
     // The wall is hollow: its end is closed.
     Surface cap = emptySurface(upper, "wall");
     const Eigen::Vector2d corner = middle - uphill * opening / 2.0 + aside * face;
     const Eigen::Vector2d across = aside * thickness;
-    addRectangle(cap, {corner.x(), corner.y(), upper.floor_z()}, {across.x(), across.y(), 0.0},
+    addRectangle(cap, {corner.x(), corner.y(), upper.floor()}, {across.x(), across.y(), 0.0},
                  {0.0, 0.0, upper.storey.ceilingHeight});
     upper.surfaces.push_back(std::move(cap));
     remarks.push_back("the wall beside a landing of storey " + std::to_string(flight.stairs.upperStorey) +
@@ -144,7 +143,7 @@ void settleFlightsDown(std::vector<StoreyMesh>& storeys, std::vector<Staircase>&
       }
       flight.stairs.lowerStorey = -1;
       flight.stairs.upperStorey = 0;
-      addWell(mesh, well, flight.stairs.foot.z(), mesh.floor_z());
+      addWell(mesh, well, flight.stairs.foot.z(), mesh.floor());
       stairs.push_back(flight.stairs);
     }
   }
@@ -157,10 +156,9 @@ void openWayUp(std::vector<StoreyMesh>& storeys, std::size_t k, const Flight& fl
   auto& mesh = storeys[k];
   const double top = headOf(flight.stairs).z();
   const bool isHighest = k + 1 == storeys.size();
-  cutAway(mesh, raised(isHighest ? flight.extent : flight.steps, mesh.ceiling_z() - kMargin, top + kMargin),
-          {"ceiling"});
+  cutAway(mesh, raised(isHighest ? flight.extent : flight.steps, mesh.ceiling() - kMargin, top + kMargin), {"ceiling"});
   if (isHighest) {
-    addWell(mesh, flight.extent, top + mesh.storey.ceilingHeight, mesh.ceiling_z());
+    addWell(mesh, flight.extent, top + mesh.storey.ceilingHeight, mesh.ceiling());
     return;
   }
   cutAway(storeys[k + 1], raised(flight.extent, top - kMargin, top + kMargin), {"floor"});

@@ -149,8 +149,8 @@ void addStandIn(const StandIn& standIn, int storey, const geometry::Pose3& T_wor
   // Curtains hang from rails between beds, everything else that hangs does so on walls.
   const bool hangsOnWall = kind.hangs && standIn.front == Front::kOffWall;
   const Eigen::Vector2d middle = middleOf(standIn, pose, front, hangsOnWall, walls);
-  const double floor_z = building.storeys[static_cast<std::size_t>(storey)].floor_z;
-  const double z = hangsOnWall ? T_world_model.translation().z() : floor_z + kind.bottom + standIn.size.z() / 2.0;
+  const double level = building.storeys[static_cast<std::size_t>(storey)].floor_z;
+  const double z = hangsOnWall ? T_world_model.translation().z() : level + kind.bottom + standIn.size.z() / 2.0;
   building.things.push_back({.id = numbered("t", building.things.size()),
                              .kind = std::string(standIn.kind),
                              .storey = storey,

@@ -28,7 +28,7 @@ struct PartKind {
 };
 
 const std::vector<PartKind>& partKinds() {
-  static const std::vector<PartKind> kinds{
+  static const std::vector<PartKind> kKinds{
       {"walls", "wall", {.color = {226, 224, 216}}},
       {"floor",
        "floor",
@@ -45,7 +45,7 @@ const std::vector<PartKind>& partKinds() {
       {"bumprail", "skirting", {.color = {150, 150, 150}}},
       {"doorsign", "sign", {.color = {60, 90, 140}}},
   };
-  return kinds;
+  return kKinds;
 }
 
 /// The kind whose word stands last in the name: "…_floor_01_walls_visual" are walls.
@@ -183,8 +183,8 @@ std::vector<double> floorLevels(const GazeboWorld& world, MeshStore& store) {
     }
   }
   std::ranges::sort(levels);
-  const auto same = std::ranges::unique(levels, [](double a, double b) { return b - a < kSameLevel; });
-  levels.erase(same.begin(), same.end());
+  levels.erase(std::unique(levels.begin(), levels.end(), [](double a, double b) { return b - a < kSameLevel; }),
+               levels.end());
   return levels;
 }
 
@@ -222,7 +222,7 @@ StoreyMeshes readStoreyMeshes(const GazeboWorld& world, const std::filesystem::p
     throw base::FileError(base::expectedFound(
         path.string(), "a model NAME_floor with NAME_floor_visual.dae beside the world", "no floor"));
   }
-  StoreyMeshes meshes{.lowestFloor_z = levels.front()};
+  StoreyMeshes meshes{.lowestFloor = levels.front()};
   for (const double level : levels) meshes.storeys.push_back({.storey = {.floor_z = level - levels.front()}});
   for (std::size_t i = 0; i < world.models.size(); ++i) {
     const auto& model = world.models[i];
@@ -241,7 +241,7 @@ std::vector<Segment> sliceOf(const StoreyMesh& mesh, std::string_view className,
   std::vector<Segment> segments;
   for (const auto& surface : mesh.surfaces) {
     if (!isOf(surface, className)) continue;
-    const auto slice = sliceAt(surface, mesh.floor_z() + height);
+    const auto slice = sliceAt(surface, mesh.floor() + height);
     segments.insert(segments.end(), slice.begin(), slice.end());
   }
   return segments;
@@ -256,7 +256,7 @@ bool hasFloorAt(const StoreyMesh& mesh, const Eigen::Vector2d& point) {
       bool isLevel = true;
       for (const auto index : triangle) {
         const auto& vertex = surface.vertices[index];
-        isLevel = isLevel && std::abs(vertex.z() - static_cast<float>(mesh.floor_z())) < kLevel;
+        isLevel = isLevel && std::abs(vertex.z() - static_cast<float>(mesh.floor())) < kLevel;
         corners.emplace_back(vertex.head<2>().cast<double>());
       }
       if (isLevel && contains(corners, point)) return true;
@@ -275,7 +275,7 @@ Surface emptySurface(const StoreyMesh& mesh, std::string_view className) {
 
 void addFloor(StoreyMesh& mesh, const Eigen::AlignedBox2d& plan) {
   Surface added = emptySurface(mesh, "floor");
-  addRectangle(added, {plan.min().x(), plan.min().y(), mesh.floor_z()}, {plan.sizes().x(), 0.0, 0.0},
+  addRectangle(added, {plan.min().x(), plan.min().y(), mesh.floor()}, {plan.sizes().x(), 0.0, 0.0},
                {0.0, plan.sizes().y(), 0.0});
   // As on the rest: metres from the model's origin.
   for (std::size_t i = 0; i < added.vertices.size(); ++i) added.textureCoordinates[i] = added.vertices[i].head<2>();

@@ -21,15 +21,15 @@ struct StoreyMesh {
   Storey storey;
   std::vector<Surface> surfaces;
 
-  double floor_z() const { return storey.floor_z; }
-  double ceiling_z() const { return storey.floor_z + storey.ceilingHeight; }
+  double floor() const { return storey.floor_z; }
+  double ceiling() const { return storey.floor_z + storey.ceilingHeight; }
 };
 
 /// Which models of a world are its storeys, and what they look like.
 struct StoreyMeshes {
   std::vector<StoreyMesh> storeys;  ///< from below; the lowest floor at z = 0
   std::vector<std::size_t> models;  ///< of the world, that these are made of: their indices
-  double lowestFloor_z = 0.0;       ///< in the world's file
+  double lowestFloor = 0.0;         ///< in the world's file
 };
 
 /// Reads MODEL_visual.dae of all models that have one in the folder. Parts are told by the end of their nodes' names:

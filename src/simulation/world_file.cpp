@@ -73,7 +73,7 @@ class WorldReader {
     if (options_.storeys > 0) meshes.storeys.resize(static_cast<std::size_t>(options_.storeys));
     storeys_ = std::move(meshes.storeys);
     storeyModels_ = std::move(meshes.models);
-    lowestFloor_z_ = meshes.lowestFloor_z;
+    lowestFloor_ = meshes.lowestFloor;
     for (const auto& mesh : storeys_) building_.storeys.push_back(mesh.storey);
 
     lowerPlatforms();
@@ -107,14 +107,14 @@ class WorldReader {
     constexpr float kHighest = 0.3F;
     constexpr float kLowest = 0.03F;
     for (std::size_t k = 0; k < storeys_.size(); ++k) {
-      const auto floor_z = static_cast<float>(storeys_[k].floor_z());
+      const auto level = static_cast<float>(storeys_[k].floor());
       bool found = false;
       for (auto& surface : storeys_[k].surfaces) {
         if (surface.classId != classId("floor")) continue;
         for (auto& vertex : surface.vertices) {
-          const float height = vertex.z() - floor_z;
+          const float height = vertex.z() - level;
           if (height < kLowest || height > kHighest) continue;
-          vertex.z() = floor_z;
+          vertex.z() = level;
           found = true;
         }
         // Risers have become lines.
@@ -134,6 +134,7 @@ class WorldReader {
     const auto openings = framedOpenings(mesh);
     const auto portals = liftPortals(storey);
     std::vector<Polygon> closures;
+    closures.reserve(openings.size() + portals.size());
     for (const auto& opening : openings) closures.push_back(opening.footprint);
     for (const auto& portal : portals) closures.push_back(portal.footprint);
     for (const auto& surface : mesh.surfaces) {
@@ -286,7 +287,7 @@ class WorldReader {
   std::optional<int> storeyOf(const WorldModel& model) const {
     constexpr double kBelow = 0.5;
     constexpr double kTallestBuilding = 500.0;
-    const double z = model.T_world_model.translation().z() - lowestFloor_z_;
+    const double z = model.T_world_model.translation().z() - lowestFloor_;
     if (z < -kBelow || z > kTallestBuilding) return std::nullopt;
     const auto& highest = building_.storeys.back();
     if (z > highest.floor_z + highest.ceilingHeight) return static_cast<int>(storeys_.size());
@@ -314,9 +315,9 @@ class WorldReader {
       last = storey.value_or(last);
       if (last == static_cast<int>(storeys_.size())) continue;  // not wanted
       auto T_world_model = model.T_world_model;
-      T_world_model.translation().z() -= lowestFloor_z_;
+      T_world_model.translation().z() -= lowestFloor_;
       if (!storey) {
-        T_world_model.translation().z() = meshOf(last).floor_z();
+        T_world_model.translation().z() = meshOf(last).floor();
         building_.remarks.push_back(model.name + " lies at z = " + heightText(model) + ": put on the floor of storey " +
                                     std::to_string(last));
       }
@@ -383,7 +384,7 @@ class WorldReader {
   Building building_;
   std::vector<StoreyMesh> storeys_;
   std::vector<std::size_t> storeyModels_;
-  double lowestFloor_z_ = 0.0;
+  double lowestFloor_ = 0.0;
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ TEST(DoorFrames, TheOpeningIsWhatTheFrameLeavesClear) {
     ASSERT_TRUE(opening) << angle;
     EXPECT_NEAR(opening->width, 0.93, 1e-4);
     EXPECT_NEAR(opening->height, 2.065, 1e-4);
-    EXPECT_NEAR(opening->floor_z, 1.5, 1e-4);
+    EXPECT_NEAR(opening->bottom, 1.5, 1e-4);
     EXPECT_NEAR(opening->pose.x, 3.0, 1e-4);
     EXPECT_NEAR(opening->pose.y, -2.0, 1e-4);
     // Either way through it.
