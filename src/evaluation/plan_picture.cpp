@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 namespace prodomos::evaluation {
@@ -321,7 +322,8 @@ std::vector<ScorePicture> planPictures(const map::MapView& view, const Truth& tr
   std::set<int> storeys;
   for (const auto& pose : truth.trajectory) storeys.insert(storeyAt(truth, pose.pose.translation().z()));
   std::vector<ScorePicture> pictures;
-  for (const int storey : storeys) pictures.push_back(PlanDrawer(truth, mapped, storey).draw());
+  std::ranges::transform(storeys, std::back_inserter(pictures),
+                         [&](int storey) { return PlanDrawer(truth, mapped, storey).draw(); });
   return pictures;
 }
 
