@@ -113,8 +113,9 @@ void RoomSpace::keepWaysClear(const Building& building) {
 }
 
 Eigen::Vector2d RoomSpace::centreOf(std::size_t cell) const {
-  return origin_ + kCell * Eigen::Vector2d(static_cast<double>(cell % columns_) + 0.5,
-                                           static_cast<double>(cell / columns_) + 0.5);
+  const std::size_t column = cell % columns_;
+  const std::size_t row = cell / columns_;
+  return origin_ + kCell * Eigen::Vector2d(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
 }
 
 void RoomSpace::rasterize() {
@@ -221,8 +222,9 @@ std::size_t RoomSpace::flood() {
     queue_.push_back(cell);
   };
   for (const auto start : starts_) visit(start);
-  for (std::size_t next = 0; next < queue_.size(); ++next) {
-    const auto cell = queue_[next];
+  std::size_t next = 0;
+  while (next < queue_.size()) {  // which grows
+    const auto cell = queue_[next++];
     // Cells at the raster's edge are closed: they lie at walls. Hence no neighbour is beyond it.
     visit(cell - 1);
     visit(cell + 1);
