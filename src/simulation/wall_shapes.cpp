@@ -90,21 +90,16 @@ void window(Shape& shape, FurnitureLook& look) {
   const auto bright = FurnitureLook::plain({228, 228, 224}, 0.3F);
   const auto rim = shape.use(look.shared().uniform() < 0.6 ? bright : look.paint);
   frame(shape, rim, kFrame);
-  sheet(
-      shape,
-      [&] {
-        auto glass = FurnitureLook::glass();
-        glass.seed = static_cast<std::uint32_t>(look.own().integer(0, 1 << 30));
-        return glass;
-      }(),
-      shape.front() - 0.035, kFrame);
+  auto glass = FurnitureLook::glass();
+  glass.seed = static_cast<std::uint32_t>(look.own().integer(0, 1 << 30));
+  sheet(shape, glass, shape.front() - 0.035, kFrame);
   const auto handle = shape.use(FurnitureLook::chrome());
-  const double mullion = shape.width() > 1.2 ? 0.0 : shape.left() - kFrame;
-  if (shape.width() > 1.2) {
+  const bool hasTwoCasements = shape.width() > 1.2;
+  if (hasTwoCasements) {
     shape.box(rim, {shape.back(), -0.03, kFrame}, {shape.front() - 0.01, 0.03, shape.height() - kFrame});
   }
   const double middle = shape.height() / 2.0;
-  const double low = shape.width() > 1.2 ? -0.01 : mullion + 0.02;
+  const double low = hasTwoCasements ? -0.01 : shape.left() - kFrame + 0.02;
   shape.box(handle, {shape.front() - 0.01, low, middle - 0.06}, {shape.front(), low + 0.02, middle + 0.06});
 }
 
