@@ -17,8 +17,8 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Seconds to either side over which the way is averaged: a turn takes twice that.
 constexpr double kSmoothing = 0.3;
-/// Of the length of a step on its duration, m·s: it is the same at all speeds that a person chooses (Sekiya and
-/// Nagasaki 1998: 0.0064 m per step a minute), of one of kMeanHeight.
+/// Length of a step times its duration, m·s, of a person of kMeanHeight: the same at all speeds that one chooses
+/// (Sekiya and Nagasaki 1998: 0.0064 m per step a minute).
 constexpr double kWalkRatio = 0.384;
 constexpr double kMeanHeight = 1.72;
 /// What can be turned in passing; beyond it, each step turns as much.
