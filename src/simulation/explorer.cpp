@@ -57,13 +57,25 @@ bool isCrossing(const FloorGrid& grid, const Eigen::Vector2d& point) {
   return ways >= 3;
 }
 
+bool isCorridor(const Room& room) {
+  return room.use == RoomUse::kCorridor;
+}
+
+/// A door that leads from corridor to corridor, or that nothing closes.
+bool isCorridorWay(const Building& building, const Door& door) {
+  return door.leaves == 0 || stateOf(leastAngle(door)) == map::DoorState::kOpen ||
+         std::ranges::all_of(door.rooms, [&](int room) {
+           return room != kOutside && isCorridor(building.rooms[static_cast<std::size_t>(room)]);
+         });
+}
+
 double areaOf(const Room& room) {
   return std::abs(signedArea(room.outline));
 }
 
 /// Rooms one may start in: corridors; without any, the room with most doors.
 bool isCorridorLike(const Building& building, int room, bool hasCorridors) {
-  if (hasCorridors) return building.rooms[static_cast<std::size_t>(room)].use == RoomUse::kCorridor;
+  if (hasCorridors) return isCorridor(building.rooms[static_cast<std::size_t>(room)]);
   const auto doorsOf = [&](int index) {
     return std::ranges::count_if(building.doors, [&](const Door& door) {
       return canBePassed(building, door) && (door.rooms[0] == index || door.rooms[1] == index);
@@ -88,34 +100,39 @@ DrivenPose startOf(const Building& building, const Floors& floors, std::uint64_t
   struct Candidate {
     int storey;
     Eigen::Vector2d position;
-    std::ptrdiff_t reached;  ///< nodes one can come to
+    std::ptrdiff_t everywhere;  ///< nodes one can come to
+    std::ptrdiff_t openly;      ///< without opening a room's door
   };
   std::vector<Candidate> candidates;
   const auto collect = [&](const auto& isWanted) {
-    for (const auto& grid : floors.grids) {
-      const auto& roadmap = floors.roadmaps[static_cast<std::size_t>(grid.storey())];
+    for (const auto& roadmap : floors.roadmaps) {
+      const auto reachedBy = [&](const Roadmap::Node& node, const DoorFilter& mayPass) {
+        const auto routes = roadmap.routesFrom(node.position, mayPass);
+        return std::ranges::count_if(routes.lengths, [](double length) { return std::isfinite(length); });
+      };
+      const auto isOpen = [&](std::size_t door) { return isCorridorWay(building, building.doors[door]); };
       for (const auto& node : roadmap.nodes()) {
         if (node.door || !isWanted(node.room)) continue;
-        const auto routes = roadmap.routesFrom(node.position);
-        const auto isReached = [](double length) { return std::isfinite(length); };
-        candidates.push_back({grid.storey(), node.position, std::ranges::count_if(routes.lengths, isReached)});
+        const int storey = building.rooms[static_cast<std::size_t>(node.room)].storey;
+        candidates.push_back({storey, node.position, reachedBy(node, anyDoor), reachedBy(node, isOpen)});
       }
     }
   };
-  const bool hasCorridors =
-      std::ranges::any_of(building.rooms, [](const Room& room) { return room.use == RoomUse::kCorridor; });
+  const bool hasCorridors = std::ranges::any_of(building.rooms, isCorridor);
   collect([&](int room) { return isCorridorLike(building, room, hasCorridors); });
   if (candidates.empty()) collect([](int /*room*/) { return true; });
   if (candidates.empty()) throw base::Error(building.name + ": there is no room in which the robot could stand");
 
-  const auto most = std::ranges::max_element(candidates, {}, &Candidate::reached)->reached;
-  std::erase_if(candidates, [&](const Candidate& candidate) { return 2 * candidate.reached < most; });
+  for (const auto& reached : {&Candidate::everywhere, &Candidate::openly}) {
+    const auto most = std::ranges::max(candidates, {}, reached).*reached;
+    std::erase_if(candidates, [&](const Candidate& candidate) { return 2 * candidate.*reached < most; });
+  }
   base::Random random(seed, "start of the tour");
   const auto& start = candidates[static_cast<std::size_t>(random.integer(0, static_cast<int>(candidates.size()) - 1))];
   const auto lengths = openings(floors.grids[static_cast<std::size_t>(start.storey)], start.position, 8.0);
-  const auto longest = std::ranges::max_element(lengths) - lengths.begin();
-  return {.pose = {start.position.x(), start.position.y(),
-                   geometry::normalizeAngle(2.0 * std::numbers::pi * static_cast<double>(longest) / kRays)},
+  const auto longest = static_cast<double>(std::ranges::max_element(lengths) - lengths.begin());
+  const double heading = geometry::normalizeAngle(2.0 * std::numbers::pi * longest / kRays);
+  return {.pose = {start.position.x(), start.position.y(), heading},
           .z = building.storeys[static_cast<std::size_t>(start.storey)].floor_z,
           .storey = start.storey};
 }
@@ -166,8 +183,8 @@ std::vector<std::size_t> Explorer::unseenCorridorSpots() {
   std::vector<std::size_t> spots;
   for (std::size_t i = 0; i < roadmap().nodes().size(); ++i) {
     const auto& node = roadmap().nodes()[i];
-    const auto use = building_.rooms[static_cast<std::size_t>(node.room)].use;
-    if (!node.door && use == RoomUse::kCorridor && !knowledge().seen[i]) spots.push_back(i);
+    const bool isInCorridor = isCorridor(building_.rooms[static_cast<std::size_t>(node.room)]);
+    if (!node.door && isInCorridor && !knowledge().seen[i]) spots.push_back(i);
   }
   return spots;
 }
@@ -201,19 +218,10 @@ std::optional<std::size_t> Explorer::nearest(const std::vector<std::size_t>& nod
   return best;
 }
 
-/// One that leads from corridor to corridor, or that nothing closes.
-bool Explorer::isCorridorWay(std::size_t index) const {
-  const auto& door = building_.doors[index];
-  const auto isCorridor = [&](int room) {
-    return building_.rooms[static_cast<std::size_t>(room)].use == RoomUse::kCorridor;
-  };
-  return door.leaves == 0 || stateOf(leastAngle(door)) == map::DoorState::kOpen ||
-         std::ranges::all_of(door.rooms, isCorridor);
-}
-
 /// False: there is nothing new in corridors, as far as one comes in them.
 bool Explorer::exploreCorridors() {
-  const auto routes = roadmap().routesFrom(driver_.position(), [&](std::size_t door) { return isCorridorWay(door); });
+  const auto routes = roadmap().routesFrom(
+      driver_.position(), [&](std::size_t door) { return isCorridorWay(building_, building_.doors[door]); });
   const auto node = nearest(unseenCorridorSpots(), routes);
   if (!node) return false;
   const bool looks =
@@ -232,7 +240,7 @@ bool Explorer::exploreRooms(bool everyRoom) {
   const auto node = nearest(nodes, routes);
   if (!node) return false;
   const int room = roadmap().nodes()[*node].room;
-  if (building_.rooms[static_cast<std::size_t>(room)].use == RoomUse::kCorridor) {
+  if (isCorridor(building_.rooms[static_cast<std::size_t>(room)])) {
     approach(*node, routes, Driver::AtEnd::kGoOn);
     knowledge().seen[*node] = true;
   } else {

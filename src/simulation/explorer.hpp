@@ -55,7 +55,6 @@ class Explorer {
   std::vector<std::size_t> unseenCorridorSpots();
   std::vector<std::size_t> unenteredRoomSpots(bool everyRoom);
   std::optional<std::size_t> nearest(const std::vector<std::size_t>& nodes, const Roadmap::Routes& routes);
-  bool isCorridorWay(std::size_t door) const;
 
   bool exploreCorridors();
   bool exploreRooms(bool everyRoom);

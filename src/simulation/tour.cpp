@@ -11,9 +11,11 @@
 #include "simulation/explorer.hpp"
 #include "simulation/given_path.hpp"
 #include "simulation/passing.hpp"
+#include "simulation/stepping_aside.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -154,6 +156,7 @@ Tour planTour(Building& building, const TourOptions& options) {
   } else {
     tour.remarks = driveAlong(options.path, floors, driver);
   }
+  for (auto& person : building.people) stepAside(driver.driven(), floors.grids, person);
   openDoors(building, driver.driven(), options);
   for (const auto& driven : driver.driven()) tour.poses.push_back({driven.time, toPose3(driven)});
   // The last tick goes beyond the end where the duration is no multiple of it.

@@ -265,6 +265,21 @@ TEST(Tour, StopsForWhoWalksIntoItsWay) {
   EXPECT_GT(test::positionOf(tour.poses.back()).x(), 10.5);
 }
 
+TEST(Tour, WhoComesTowardsTheRobotStepsAside) {
+  auto building = test::corridorWithTwoRooms();
+  building.people = {{.id = "p1", .way = {{0.0, {11.0, 1.0}}, {3.0, {11.0, 1.0}}, {12.0, {1.0, 1.0}}}}};
+  const auto tour = planTour(building, {.duration = 30.0, .path = {{0, {1.0, 1.0}}, {0, {11.0, 1.0}}}});
+  const auto& person = building.people.front();
+  for (std::size_t i = 1; i < person.way.size(); ++i) EXPECT_GT(person.way[i].time, person.way[i - 1].time);
+  const auto walls = test::wallsOf(building, 0);
+  for (const auto& pose : tour.poses) {
+    const auto position = positionAt(person, pose.time);
+    EXPECT_GT((position - test::positionOf(pose)).norm(), 0.5) << pose.time;
+    EXPECT_GT(test::distanceToWalls(walls, position), 0.25) << pose.time;
+  }
+  EXPECT_EQ(positionAt(person, 30.0), Eigen::Vector2d(1.0, 1.0));
+}
+
 TEST(Tour, FollowsAGivenPathAndThenStands) {
   auto building = test::corridorWithTwoRooms();
   const TourOptions options{.duration = 60.0,
