@@ -61,7 +61,9 @@ Image<float> sharedNoise(int width, int height, int window, const PixelNoise& no
 class Warp {
  public:
   Warp(int width, int height, const DepthNoise& noise)
-      : columns_(width / kStep + 2), rows_(height / kStep + 2), steps_(static_cast<std::size_t>(columns_ * rows_)) {
+      : columns_(width / kStep + 2),
+        rows_(height / kStep + 2),
+        steps_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {
     base::Random random(noise.device, "depth warp");
     for (int wave = 0; wave < kWaves; ++wave) {
       // Lengths from an eighth of the picture's width to all of it.
@@ -93,8 +95,11 @@ class Warp {
   static constexpr int kStep = 8;
   static constexpr int kWaves = 24;
 
-  float& at(int column, int row) { return steps_[static_cast<std::size_t>(row * columns_ + column)]; }
-  const float& at(int column, int row) const { return steps_[static_cast<std::size_t>(row * columns_ + column)]; }
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+  }
+  float& at(int column, int row) { return steps_[index(column, row)]; }
+  const float& at(int column, int row) const { return steps_[index(column, row)]; }
 
   int columns_;
   int rows_;
@@ -149,9 +154,9 @@ class Measurement {
     for (int x = width() - 1; x >= 0; --x) {
       const float z = seen_.depth(x, y);
       if (z <= 0.0F) continue;
-      const float in_projector = static_cast<float>(x) - shift_ / z;
-      unlit[static_cast<std::size_t>(x)] = in_projector > leftmost + 1.0F;
-      leftmost = std::min(leftmost, in_projector);
+      const float projected = static_cast<float>(x) - shift_ / z;
+      unlit[static_cast<std::size_t>(x)] = projected > leftmost + 1.0F;
+      leftmost = std::min(leftmost, projected);
     }
     return unlit;
   }

@@ -176,7 +176,7 @@ void LightField::smoothRow(int row, std::vector<Sample>& smoothed) const {
         mean.add(near.light, weight * likeness(near.place, middle.place));
       }
     }
-    smoothed[static_cast<std::size_t>(row * columns_ + column)].light = mean.light();
+    smoothed[index(column, row)].light = mean.light();
   }
 }
 

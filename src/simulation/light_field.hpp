@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -49,10 +50,11 @@ class LightField {
   void lightRow(const RayScene& scene, const std::vector<Eigen::Vector3f>& lamps, int row);
   void closeRow(const RayScene& scene, int row);
   void smoothRow(int row, std::vector<Sample>& smoothed) const;
-  Sample& sample(int column, int row) { return samples_[static_cast<std::size_t>(row * columns_ + column)]; }
-  const Sample& sample(int column, int row) const {
-    return samples_[static_cast<std::size_t>(row * columns_ + column)];
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
   }
+  Sample& sample(int column, int row) { return samples_[index(column, row)]; }
+  const Sample& sample(int column, int row) const { return samples_[index(column, row)]; }
 
   int columns_ = 0;
   int rows_ = 0;

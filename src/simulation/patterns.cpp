@@ -39,7 +39,9 @@ int cellOf(float value) {
 }
 
 /// Without the exactness of std::lerp at its ends, which costs more than the rest of a pattern.
-float mix(float a, float b, float share) { return a + share * (b - a); }
+float mix(float a, float b, float share) {
+  return a + share * (b - a);
+}
 
 Vector3f mix(const Vector3f& a, const Vector3f& b, float share) {
   return a + share * (b - a);
@@ -77,8 +79,8 @@ float grain(const Vector2f& point, float size, float footprint, std::uint32_t se
 /// Lines of words, dark on light: share of ink. `pitch` from line to line.
 float text(const Vector2f& point, float pitch, float footprint, std::uint32_t seed) {
   const int line = cellOf(point.y() / pitch);
-  const float in_line = point.y() - static_cast<float>(line) * pitch;
-  const float ink = band(in_line, 0.3F * pitch, 0.75F * pitch, footprint);
+  const float withinLine = point.y() - static_cast<float>(line) * pitch;
+  const float ink = band(withinLine, 0.3F * pitch, 0.75F * pitch, footprint);
   const int letter = cellOf(point.x() / (0.5F * pitch));
   const bool gap = chance(letter / 2, line, seed) < 0.16F;
   const float shade = 0.55F + 0.35F * clarity(0.5F * pitch, footprint) * (chance(letter, line, seed + 1) - 0.5F);
@@ -111,8 +113,8 @@ Vector3f wood(const Material& material, const PatternSample& at) {
   const float fibres = clarity(0.004F, at.footprint) * noise(260.0F * x, 6.0F * y, seed + 2);
   const float share = std::clamp(0.35F + 0.3F * rings + 0.12F * fibres, 0.0F, 1.0F);
   const float tint = 1.0F + 0.12F * (chance(board, 1, material.seed) - 0.5F);
-  const float in_board = x - static_cast<float>(board) * width;
-  const float joint = band(in_board, 0.0F, 0.002F, at.footprint);
+  const float withinBoard = x - static_cast<float>(board) * width;
+  const float joint = band(withinBoard, 0.0F, 0.002F, at.footprint);
   return mix(linearColor(material.color), linearColor(material.accent), share) * (tint * (1.0F - 0.6F * joint));
 }
 
@@ -150,7 +152,7 @@ Vector3f fabric(const Material& material, const PatternSample& at) {
 Vector3f poster(const Material& material, const PatternSample& at) {
   const float x = at.point.x() / std::max(at.extent.x(), 0.01F);
   const float y = at.point.y() / std::max(at.extent.y(), 0.01F);
-  const Vector3f paper = linearColor(material.color);
+  Vector3f paper = linearColor(material.color);
   const Vector3f ink = linearColor(material.accent);
   constexpr float kMargin = 0.07F;
   if (x < kMargin || x > 1.0F - kMargin || y < kMargin || y > 0.96F) return paper;
@@ -271,15 +273,15 @@ Eigen::Vector3f linearColor(sensors::Rgb color) {
 
 sensors::Rgb encodedColor(const Eigen::Vector3f& linear) {
   static const auto kTable = [] {
-    std::array<std::uint8_t, kEncodingSteps> table{};
+    std::array<std::uint8_t, kEncodingSteps + 1> table{};
     for (std::size_t i = 0; i < table.size(); ++i) {
-      const float value = std::pow(static_cast<float>(i) / (kEncodingSteps - 1), 1.0F / 2.2F);
+      const float value = std::pow(static_cast<float>(i) / kEncodingSteps, 1.0F / 2.2F);
       table[i] = static_cast<std::uint8_t>(std::lround(255.0F * value));
     }
     return table;
   }();
   const auto encoded = [&](float value) {
-    return kTable[static_cast<std::size_t>(std::clamp(value, 0.0F, 1.0F) * (kEncodingSteps - 1) + 0.5F)];
+    return kTable[static_cast<std::size_t>(std::clamp(value, 0.0F, 1.0F) * kEncodingSteps)];
   };
   return {encoded(linear.x()), encoded(linear.y()), encoded(linear.z())};
 }
@@ -294,7 +296,7 @@ Eigen::Vector3f MipMap::sample(const Eigen::Vector2f& coordinates, float footpri
   const auto pixels = footprint * static_cast<float>(std::max(levels_.front().width(), levels_.front().height()));
   const float level = std::clamp(std::log2(std::max(pixels, 1.0F)), 0.0F, static_cast<float>(levels_.size() - 1));
   const auto lower = static_cast<std::size_t>(level);
-  const Vector3f fine = bilinear(levels_[lower], coordinates);
+  Vector3f fine = bilinear(levels_[lower], coordinates);
   if (lower + 1 >= levels_.size() || level <= 0.0F) return fine;
   return mix(fine, bilinear(levels_[lower + 1], coordinates), level - static_cast<float>(lower));
 }

@@ -15,6 +15,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::vector<double> evenly(double first, double last, int count) {
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) values.push_back(first + (last - first) * i / (count - 1));
   return values;
 }

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <string>
 #include <utility>
 
@@ -51,11 +50,18 @@ std::string sizes(const Surface& surface) {
          " triangles";
 }
 
-template <typename Element>
+/// Threes of numbers, one after the other.
+template <typename Number, typename Element>
+void copyNumbers(const std::vector<Element>& elements, void* buffer) {
+  static_assert(sizeof(Element) == 3 * sizeof(Number));
+  std::copy_n(elements.front().data(), 3 * elements.size(), static_cast<Number*>(buffer));
+}
+
+template <typename Number, typename Element>
 void fillBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const std::vector<Element>& elements) {
   void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Element), elements.size());
   if (buffer == nullptr) throw base::Error("no memory for a surface of " + std::to_string(elements.size()) + " parts");
-  std::memcpy(buffer, elements.data(), elements.size() * sizeof(Element));
+  copyNumbers<Number>(elements, buffer);
 }
 
 /// Weights of a triangle's three vertices at a hit.
@@ -114,9 +120,9 @@ class RayScene::Impl {
     }
     check(surface, "moving surface " + std::to_string(index));
     moved = surface;
+    if (moved.triangles.empty()) return;
     RTCGeometry geometry = rtcGetGeometry(movingScene_.get(), static_cast<unsigned>(fixed_.size() + index));
-    std::memcpy(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0), moved.vertices.data(),
-                moved.vertices.size() * sizeof(Eigen::Vector3f));
+    copyNumbers<float>(moved.vertices, rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
     rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
     rtcCommitGeometry(geometry);
   }
@@ -164,10 +170,11 @@ class RayScene::Impl {
     rtcSetSceneBuildQuality(scene.get(), quality);
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
       check(surfaces[i], kind + " surface " + std::to_string(i));
+      if (surfaces[i].triangles.empty()) continue;
       RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
       rtcSetGeometryBuildQuality(geometry, quality);
-      fillBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, surfaces[i].vertices);
-      fillBuffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, surfaces[i].triangles);
+      fillBuffer<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, surfaces[i].vertices);
+      fillBuffer<std::uint32_t>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, surfaces[i].triangles);
       rtcCommitGeometry(geometry);
       rtcAttachGeometryByID(scene.get(), geometry, static_cast<unsigned>(firstId + i));
       rtcReleaseGeometry(geometry);

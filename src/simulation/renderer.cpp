@@ -135,7 +135,9 @@ class Renderer::Impl {
     return LitPoint{ray.origin + hit.distance * ray.direction, hit.normal};
   }
 
-  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * camera_.width + x); }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width) + static_cast<std::size_t>(x);
+  }
 
   Rendering blank() const {
     const int w = camera_.width;
@@ -311,7 +313,7 @@ class Renderer::Impl {
   std::vector<Vector3f> directions_;  ///< in camera axes, z = 1, row by row
 };
 
-Renderer::Renderer(const RayScene& scene, std::vector<Image<sensors::Rgb>> textures, Lighting lighting,
+Renderer::Renderer(const RayScene& scene, const std::vector<Image<sensors::Rgb>>& textures, Lighting lighting,
                    CameraModel camera, Exposure exposure)
     : impl_(std::make_unique<Impl>(scene, textures, std::move(lighting), camera, exposure)) {}
 Renderer::~Renderer() = default;

@@ -188,6 +188,13 @@ TEST(RayScene, EndsAtTheGreatestDistance) {
   EXPECT_FALSE(RayScene({}).cast({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0})) << "of nothing";
 }
 
+TEST(RayScene, EmptySurfacesDoNoHarm) {
+  RayScene scene({Surface{}, wallAt(2.0)}, {Surface{}, wallAt(1.0)});
+  scene.move(0, Surface{});
+  scene.commit();
+  EXPECT_EQ(scene.cast({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}).surface, &scene.moving()[1]);
+}
+
 TEST(RayScene, TrianglesWithoutAreaDoNoHarm) {
   Surface line{.vertices = {{1.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 0.0F}, {1.0F, 2.0F, 0.0F}},
                .triangles = {{0, 1, 2}, {0, 0, 0}}};

@@ -38,7 +38,7 @@ struct Exposure {
 class Renderer {
  public:
   /// `textures` are those that Material::texture names.
-  Renderer(const RayScene& scene, std::vector<sensors::Image<sensors::Rgb>> textures, Lighting lighting,
+  Renderer(const RayScene& scene, const std::vector<sensors::Image<sensors::Rgb>>& textures, Lighting lighting,
            CameraModel camera = {}, Exposure exposure = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;
