@@ -92,9 +92,9 @@ FoundCount imagesWith(const std::multimap<base::EntityId, base::Time>& images, s
                       const Sighting& sighting) {
   FoundCount count{sighting.images.size(), 0};
   if (!entity) return count;
-  const auto [first, last] = images.equal_range(*entity);
-  count.found = static_cast<std::size_t>(std::ranges::count_if(sighting.images, [first, last](base::Time image) {
-    return std::any_of(first, last, [image](const auto& detection) {
+  const auto range = images.equal_range(*entity);
+  count.found = static_cast<std::size_t>(std::ranges::count_if(sighting.images, [&range](base::Time image) {
+    return std::any_of(range.first, range.second, [image](const auto& detection) {
       return std::chrono::abs(detection.second - image) <= kSameImage;
     });
   }));

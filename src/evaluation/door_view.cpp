@@ -86,13 +86,13 @@ double DoorView::iou(const DoorBox& box) const {
 double DoorView::iouClipped(const DoorBox& box) const {
   const auto cells = cellsOf(box);
   if (cells.empty()) return 0.0;
-  CellMap<std::uint8_t> isOpen(cells, 0);  // not known, and not reached yet
-  std::vector<geometry::CellIndex> reached;
+  CellMap<std::uint8_t> isOpen(cells, 0);   // not known, and not reached yet
+  std::vector<geometry::CellIndex> border;  // reached, but not their neighbours
   const auto reach = [&](geometry::CellIndex cell) {
     auto* open = isOpen.find(cell);
     if (open == nullptr || *open == 0) return;
     *open = 0;
-    reached.push_back(cell);
+    border.push_back(cell);
   };
   for (int y = cells.first.y; y <= cells.last.y; ++y) {
     for (int x = cells.first.x; x <= cells.last.x; ++x) *isOpen.find({x, y}) = known_.at({x, y}) == 0 ? 1 : 0;
@@ -102,15 +102,18 @@ double DoorView::iouClipped(const DoorBox& box) const {
     for (int x = start.first.x; x <= start.last.x; ++x) reach({x, y});
   }
   double shared = 0.0;
-  for (std::size_t i = 0; i < reached.size(); ++i) {
-    const auto cell = reached[i];
+  double kept = 0.0;
+  while (!border.empty()) {
+    const auto cell = border.back();
+    border.pop_back();
+    kept += 1.0;
     shared += room_.at(cell);
     reach({cell.x + 1, cell.y});
     reach({cell.x - 1, cell.y});
     reach({cell.x, cell.y + 1});
     reach({cell.x, cell.y - 1});
   }
-  return iouOf(shared, static_cast<double>(reached.size()));
+  return iouOf(shared, kept);
 }
 
 ByRadius DoorView::iousOfHalfDiscs() const {

@@ -39,7 +39,7 @@ class KnownSpace {
     std::int32_t evidence = 0;  ///< sum of log-odds
   };
 
-  void add(std::int32_t number, const KnownGrid& grid);
+  void add(std::int32_t number, const KnownGrid& known);
 
   std::vector<base::Time> begins_;  ///< of the grids, ascending
   std::map<int, CellMap<Cell>> cellsOfStorey_;
