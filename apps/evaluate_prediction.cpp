@@ -18,11 +18,11 @@ namespace prodomos::apps {
 namespace {
 
 using evaluation::PredictionScore;
-using json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
-json toJson(const evaluation::DetectionCounts& counts) {
+Json toJson(const evaluation::DetectionCounts& counts) {
   return {{"recall", measure(counts.all.recall())},
           {"recall_image", measure(counts.images ? counts.images->recall() : std::nullopt)},
           {"recall_visible", measure(counts.visible.recall())},
@@ -35,8 +35,8 @@ json toJson(const evaluation::DetectionCounts& counts) {
           {"wrong", counts.wrong}};
 }
 
-json toJson(const evaluation::DoorScore& score) {
-  json out = toJson(score.counts);
+Json toJson(const evaluation::DoorScore& score) {
+  Json out = toJson(score.counts);
   out["centre_m"] = errorsOf(score.centre);
   out["normal_deg"] = errorsOf(score.normal, kDegreesPerRadian);
   out["width_m"] = errorsOf(score.width);
@@ -46,8 +46,8 @@ json toJson(const evaluation::DoorScore& score) {
   return out;
 }
 
-json toJson(const evaluation::StairsScore& score) {
-  json out = toJson(score.counts);
+Json toJson(const evaluation::StairsScore& score) {
+  Json out = toJson(score.counts);
   out["foot_m"] = errorsOf(score.foot);
   out["direction_deg"] = errorsOf(score.direction, kDegreesPerRadian);
   out["width_m"] = errorsOf(score.width);
@@ -55,7 +55,7 @@ json toJson(const evaluation::StairsScore& score) {
   return out;
 }
 
-json toJson(const evaluation::NodeScore& score) {
+Json toJson(const evaluation::NodeScore& score) {
   return {{"precision", measure(score.precision())},
           {"recall", measure(score.behindVisible.recall())},
           {"recall_adjacent", measure(score.adjacent.recall())},
@@ -65,11 +65,11 @@ json toJson(const evaluation::NodeScore& score) {
           {"unseen_rooms_adjacent", score.adjacent.truth}};
 }
 
-json toJson(const evaluation::FreeSpaceScore& score) {
-  json out = json::object();
+Json toJson(const evaluation::FreeSpaceScore& score) {
+  Json out = Json::object();
   for (std::size_t i = 0; i < score.levels.size(); ++i) {
     const auto& level = score.levels[i];
-    json at = json::object();
+    Json at = Json::object();
     for (const auto mobility : {map::Mobility::kStatic, map::Mobility::kQuasiStatic, map::Mobility::kDynamic}) {
       const auto& counts = level.byMobility[static_cast<std::size_t>(mobility)];
       at[std::string(toString(mobility))] = measure(counts.precision());
@@ -84,7 +84,7 @@ json toJson(const evaluation::FreeSpaceScore& score) {
   return out;
 }
 
-json toJson(const evaluation::RoomScore& score) {
+Json toJson(const evaluation::RoomScore& score) {
   return {{"all", measure(score.all())},
           {"up_to_60_m2", measure(score.ordinary())},
           {"half_disc_equal_area", measure(score.halfDiscEqualArea())},
@@ -98,12 +98,12 @@ json toJson(const evaluation::RoomScore& score) {
           {"doors_predicted", score.doors.found}};
 }
 
-json toJson(const std::vector<evaluation::Bet>& bets) {
+Json toJson(const std::vector<evaluation::Bet>& bets) {
   const auto calibration = evaluation::calibrationOf(bets);
   if (!calibration) return {{"ece", nullptr}, {"brier", nullptr}, {"brier_skill", nullptr}, {"bins", nullptr}};
-  json bins = json::array();
+  Json bins = Json::array();
   for (const auto& bin : calibration->bins) {
-    const auto ifAny = [&bin](double value) { return bin.count == 0 ? json(nullptr) : json(value); };
+    const auto ifAny = [&bin](double value) { return bin.count == 0 ? Json(nullptr) : Json(value); };
     bins.push_back({{"from", bin.from},
                     {"to", bin.to},
                     {"count", bin.count},
@@ -118,7 +118,7 @@ json toJson(const std::vector<evaluation::Bet>& bets) {
           {"bins", bins}};
 }
 
-json toJson(const PredictionScore& score) {
+Json toJson(const PredictionScore& score) {
   return {{"doors", toJson(score.doors)},          {"doorways", toJson(score.doorways)},
           {"stairs", toJson(score.stairs)},        {"nodes", toJson(score.nodes)},
           {"free_space", toJson(score.freeSpace)}, {"room_iou", toJson(score.rooms)},
@@ -126,8 +126,8 @@ json toJson(const PredictionScore& score) {
 }
 
 /// By measure the building that has the least of it.
-json worstBuildings(const std::vector<ScoredMap>& maps) {
-  json worst = json::object();
+Json worstBuildings(const std::vector<ScoredMap>& maps) {
+  Json worst = Json::object();
   for (const auto& compared : evaluation::comparedMeasures()) {
     const auto* map = findWorst(maps, compared);
     if (map == nullptr) continue;
@@ -136,12 +136,12 @@ json worstBuildings(const std::vector<ScoredMap>& maps) {
   return worst;
 }
 
-json reportOf(const PredictionScore& pooled, const std::vector<ScoredMap>& maps) {
-  json report = toJson(pooled);
+Json reportOf(const PredictionScore& pooled, const std::vector<ScoredMap>& maps) {
+  Json report = toJson(pooled);
   report["worst"] = worstBuildings(maps);
-  report["buildings"] = json::array();
+  report["buildings"] = Json::array();
   for (const auto& map : maps) {
-    json building = {{"building", map.building}, {"map", map.map}};
+    Json building = {{"building", map.building}, {"map", map.map}};
     building.update(toJson(map.score));
     report["buildings"].push_back(std::move(building));
   }
@@ -168,7 +168,7 @@ void evaluatePrediction(const EvaluateOptions& options) {
     pooled += maps.back().score;
   }
   const std::string title = "prediction of " + (maps.size() == 1 ? maps[0].map : std::to_string(maps.size()) + " maps");
-  const json report = reportOf(pooled, maps);
+  const Json report = reportOf(pooled, maps);
   if (!options.html.empty()) {
     std::vector<evaluation::ScorePicture> pictures;
     if (const auto calibration = evaluation::calibrationOf(pooled.bets)) {
