@@ -154,6 +154,10 @@ Explorer::Explorer(const Building& building, const Floors& floors, const TourOpt
     const int inTime = std::max(2, static_cast<int>(options.duration / kLeastStage));
     stages_ = std::min(static_cast<int>(building.storeys.size()), inTime);
     nextChange_ = chooseChange();
+    if (nextChange_ == nullptr) {
+      remarks_.push_back("no lift and no stairs lead the robot from storey " + std::to_string(storey()) +
+                         " to another");
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -53,20 +54,22 @@ class Reached {
     bool settled = false;
   };
 
-  Reached(int width, int height)
-      : columns_(width / kSide + 1), tiles_(static_cast<std::size_t>(columns_ * (height / kSide + 1))) {}
+  Reached(int width, int height) : columns_(tileOf(width) + 1), tiles_(columns_ * (tileOf(height) + 1)) {}
 
   Entry& operator[](CellIndex cell) {
-    auto& tile = tiles_[static_cast<std::size_t>(cell.y / kSide * columns_ + cell.x / kSide)];
+    auto& tile = tiles_[tileOf(cell.y) * columns_ + tileOf(cell.x)];
     if (!tile) tile = std::make_unique<Tile>();
-    return (*tile)[static_cast<std::size_t>(cell.y % kSide * kSide + cell.x % kSide)];
+    return (*tile)[inTile(cell.y) * kSide + inTile(cell.x)];
   }
 
  private:
-  static constexpr int kSide = 64;
+  static constexpr std::size_t kSide = 64;
   using Tile = std::array<Entry, kSide * kSide>;
 
-  int columns_;
+  static std::size_t tileOf(int index) { return static_cast<std::size_t>(index) / kSide; }
+  static std::size_t inTile(int index) { return static_cast<std::size_t>(index) % kSide; }
+
+  std::size_t columns_;
   std::vector<std::unique_ptr<Tile>> tiles_;
 };
 
@@ -255,13 +258,13 @@ void FloorGrid::drawDoors(const Building& building) {
 }
 
 void FloorGrid::drawThings(const Building& building) {
-  const double floor_z = building.storeys[static_cast<std::size_t>(storey_)].floor_z;
+  const double floorHeight = building.storeys[static_cast<std::size_t>(storey_)].floor_z;
   for (const auto& thing : building.things) {
     if (thing.storey != storey_) continue;
     const Eigen::Vector3d middle = thing.T_world_thing.translation();
     const double halfHeight = (thing.T_world_thing.linear().row(2).cwiseAbs() * thing.size / 2.0).value();
-    const double bottom = middle.z() - halfHeight - floor_z;
-    const double top = middle.z() + halfHeight - floor_z;
+    const double bottom = middle.z() - halfHeight - floorHeight;
+    const double top = middle.z() + halfHeight - floorHeight;
     if (bottom > kHeadroom || top < kThreshold) continue;
     fill(rectangle(middle.head<2>(), geometry::yaw(thing.T_world_thing), thing.size.x(), thing.size.y()), kWall);
   }

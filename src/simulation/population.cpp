@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -42,8 +43,8 @@ std::vector<Swing> greaterOf(const std::vector<Swing>& a, const std::vector<Swin
   const Door one{.swings = a};
   const Door other{.swings = b};
   std::vector<double> times;
-  for (const auto& swing : a) times.push_back(swing.time);
-  for (const auto& swing : b) times.push_back(swing.time);
+  std::ranges::transform(a, std::back_inserter(times), &Swing::time);
+  std::ranges::transform(b, std::back_inserter(times), &Swing::time);
   std::ranges::sort(times);
   const auto difference = [&](double time) { return openingAngle(one, time) - openingAngle(other, time); };
   std::vector<double> crossings;
@@ -107,7 +108,7 @@ class StoreyPopulation {
     std::vector<Person> people;
     const int count = drawCount();
     const auto chairs = drawChairs(static_cast<int>(std::lround(kShareOfSitters * count)));
-    for (const auto* chair : chairs) people.push_back(sitter(*chair));
+    std::ranges::transform(chairs, std::back_inserter(people), [&](const Thing* chair) { return sitter(*chair); });
     if (spots_.empty()) return people;
     while (static_cast<int>(people.size()) < count) people.push_back(walker());
     return people;

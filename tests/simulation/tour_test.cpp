@@ -360,6 +360,13 @@ TEST(Tour, ABuildingWithoutRoomToStandIsAnError) {
   EXPECT_THROW(planTour(empty, {}), base::Error);
 }
 
+TEST(Tour, SaysThatItCannotLeaveItsStorey) {
+  auto building = test::twoStoreyOffice();
+  const auto tour = planTour(building, {.duration = 60.0});
+  ASSERT_EQ(tour.remarks.size(), 1U);
+  EXPECT_THAT(tour.remarks.front(), HasSubstr("no lift and no stairs"));
+}
+
 TEST(Tour, ARoomWithoutWayOutIsLookedAtUntilTheEnd) {
   Building building{.name = "cell", .storeys = {{}}};
   test::addRoom(building, "CELL", {0.0, 0.0}, {3.0, 3.0});

@@ -46,9 +46,10 @@ geometry::Pose3 poseAt(const Tour& tour, double time);
 /// The way of a robot that explores: it sees the corridors first, passes their doors, then enters some rooms and turns
 /// round in them, and by the middle of the time changes floor by a lift or is carried over the stairs. Doors that it
 /// passes are opened for it in time and closed some time later, and some others open while it is elsewhere: their
-/// swings are added to the building. It stops for people who walk into its way (call populate() before). Same building
-/// and options, same tour. Throws base::UsageError for a time or limit that is not positive and for a given path that
-/// cannot be driven, naming the point, and base::Error where the robot can stand nowhere.
+/// swings are added to the building. It stops for people who walk into its way, and those it comes close to step aside:
+/// their ways are changed (call populate() before). Same building and options, same tour. Throws base::UsageError for a
+/// time or limit that is not positive and for a given path that cannot be driven, naming the point, and base::Error
+/// where the robot can stand nowhere.
 Tour planTour(Building& building, const TourOptions& options);
 
 }  // namespace prodomos::simulation
