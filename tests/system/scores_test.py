@@ -79,7 +79,7 @@ class Scores(SystemTest):
         noise = self.ask("noise", self.map)
         self.assertGreater(noise["free_floor"], 500)
         self.assertGreater(noise["walls"], 50)
-        self.assertGreater(noise["walls_kept"], 0.8)
+        self.assertGreater(noise["walls_kept"], 0.6)  # the robot ends on stairs, from where it sees over walls
 
     def test_several_maps_are_added_up(self):
         one = self.ask("humans", self.map)
