@@ -87,7 +87,7 @@ std::optional<Eigen::Vector2d> spotOf(const Lift& lift, const FloorGrid& one, co
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const auto& corner : lift.outline) middle += corner / static_cast<double>(lift.outline.size());
   for (const auto* grid : {&one, &other}) {
-    const auto spot = grid->nearestFree(middle, kBeforeLift);
+    auto spot = grid->nearestFree(middle, kBeforeLift);
     if (spot && one.isFree(*spot) && other.isFree(*spot)) return spot;
   }
   return std::nullopt;
