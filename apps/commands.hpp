@@ -15,6 +15,7 @@ void addExport(CLI::App& program);
 void addView(CLI::App& program);
 void addEvaluate(CLI::App& program);
 void addOptimize(CLI::App& program);
+void addSimulate(CLI::App& program);
 void addConfig(CLI::App& program);
 
 }  // namespace prodomos::apps

@@ -3,6 +3,7 @@
 #include "prodomos/base/config.hpp"
 
 #include "prodomos/mapper/config.hpp"
+#include "prodomos/simulation/simulator.hpp"
 
 #include "commands.hpp"
 
@@ -15,10 +16,18 @@ void addConfig(CLI::App& program) {
   command->footer(
       "Examples:\n"
       "  prodomos config > mine.yaml                 a file to change and give to replay --config\n"
-      "  prodomos config --describe                  the same with unit, bounds and meaning of every key");
+      "  prodomos config --describe                  the same with unit, bounds and meaning of every key\n"
+      "  prodomos config --of simulate --describe    of the simulator");
   auto describe = std::make_shared<bool>(false);
   command->add_flag("--describe", *describe, "with unit, bounds and meaning of every key");
-  command->callback([describe] { std::cout << base::writeConfig(mapper::MapperConfig{}, *describe); });
+  auto of = std::make_shared<std::string>("replay");
+  command->add_option("--of", *of, "the command that is configured")
+      ->check(CLI::IsMember({"replay", "simulate"}))
+      ->capture_default_str();
+  command->callback([describe, of] {
+    std::cout << (*of == "replay" ? base::writeConfig(mapper::MapperConfig{}, *describe)
+                                  : base::writeConfig(simulation::SimulationConfig{}, *describe));
+  });
 }
 
 }  // namespace prodomos::apps

@@ -6,22 +6,26 @@
 
 #include <chrono>
 #include <cstdint>
+#include <string>
 
 namespace prodomos::apps {
 
-/// Shows how far a replay is, on stderr: a bar with rate and remaining time on a terminal, a line now and then in a
-/// pipe.
+/// Shows how far a long command is, on stderr: a bar with rate and remaining time on a terminal, a line now and then in
+/// a pipe.
 class ProgressBar {
  public:
-  explicit ProgressBar(bool quiet);
+  /// `items`: what is counted, "readings".
+  ProgressBar(std::string command, std::string items, bool quiet);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  void show(const base::Progress& progress, std::int64_t readings);
+  void show(const base::Progress& progress, std::int64_t count);
 
  private:
   using Clock = std::chrono::steady_clock;
+  std::string command_;
+  std::string items_;
   bool quiet_;
   bool isTerminal_;
   bool hasDrawn_ = false;

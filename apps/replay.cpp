@@ -175,7 +175,7 @@ void replayLog(ReplayOptions& options) {
     auto store = openStore(options);
     mapper::Mapper mapper(store, config, log);
     {
-      ProgressBar bar(options.quiet);
+      ProgressBar bar("replay", "readings", options.quiet);
       mapper::replay(*source, mapper,
                      [&](const base::Progress& progress) { bar.show(progress, mapper.report().read); });
     }

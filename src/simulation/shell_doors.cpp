@@ -226,6 +226,13 @@ void addFrame(const Building& building, std::size_t index, const HouseLook& look
   surfaces.push_back(std::move(frame));
 }
 
+double leafOffset(const Building& building, std::size_t door, std::uint64_t seed) {
+  const Door& hung = building.doors[door];
+  if (hung.leaves == 0) return 0.0;
+  const double behind = hung.opensAlongNormal ? -kLeafThickness / 2.0 : kLeafThickness / 2.0;
+  return hingePlane(building, hung, HouseLook(building, seed).door(door)) + behind;
+}
+
 std::vector<Surface> leavesAt(const Building& building, std::size_t door, double time, std::uint64_t seed) {
   const Door& hung = building.doors[door];
   const HouseLook house(building, seed);

@@ -3,6 +3,7 @@
 #include "prodomos/simulation/simulator.hpp"
 
 #include "prodomos/base/error.hpp"
+#include "prodomos/simulation/color_noise.hpp"
 #include "prodomos/simulation/furniture.hpp"
 #include "prodomos/simulation/population.hpp"
 #include "prodomos/simulation/renderer.hpp"
@@ -84,20 +85,23 @@ class Simulation {
  public:
   Simulation(const Building& building, const Tour& tour, const SimulationOptions& options,
              const SimulationConfig& config, sensors::SensorSink& sink)
-      : building_(building),
-        tour_(tour),
+      : tour_(tour),
         options_(options),
         config_(config),
         stage_(building, options.seed),
         renderer_(stage_.scene(), building.textures, building.lighting, camera_),
-        truth_(truthOf(building, kBegin)),
+        truth_(truthOf(building, kBegin, options.seed)),
         witness_(building, camera_, truth_),
         wheels_(config.wheels, options.seed),
         laserNoise_(options.seed, "laser"),
         lidarNoise_(options.seed, "lidar"),
         depthNoise_(options.seed, "depth"),
+        colorNoise_(options.seed, "colour"),
         labelNoise_(options.seed, "labels"),
-        writer_(sink) {}
+        lidar_(config.lidarModel),
+        writer_(sink) {
+    if (config.lidarRings == 1) lidar_.elevations = elevations64();
+  }
 
   void live(const Moment& moment) {
     const auto time = kBegin + base::fromSeconds(moment.seconds);
@@ -153,10 +157,11 @@ class Simulation {
     const auto rendering = renderer_.render(T_world_camera, options_.threads);
     witness_.walk(time, T_world_body);
     witness_.look(time, seconds, T_world_camera, rendering);
-    sensors::RgbdFrame frame{.T_body_camera = T_body_camera,
-                             .camera = camera_.intrinsics,
-                             .depth = noisyDepth(rendering, camera_, config_.depthNoise, depthNoise_),
-                             .color = rendering.color};
+    sensors::RgbdFrame frame{
+        .T_body_camera = T_body_camera,
+        .camera = camera_.intrinsics,
+        .depth = noisyDepth(rendering, camera_, config_.depthNoise, depthNoise_, options_.threads),
+        .color = noisyColor(colorOf(rendering, seconds, T_world_camera), {}, colorNoise_, options_.threads)};
     if (options_.labels != Labels::kNone) {
       frame.labels = sensors::LabelImage{.classes = rendering.classes, .instances = rendering.instances};
       if (options_.labels == Labels::kDegraded) {
@@ -166,7 +171,14 @@ class Simulation {
     writer_.add({time, "camera", std::move(frame)});
   }
 
-  const Building& building_;
+  sensors::Image<sensors::Rgb> colorOf(const Rendering& rendering, double seconds,
+                                       const geometry::Pose3& T_world_camera) const {
+    if (config_.shutter == 0.0) return rendering.color;
+    const auto T_world_before =
+        poseAt(tour_, seconds - config_.shutter) * poseOf(config_.camera) * sensors::cameraAxesInBody();
+    return motionBlurred(rendering, camera_, T_world_camera.inverse() * T_world_before, options_.threads);
+  }
+
   const Tour& tour_;
   const SimulationOptions& options_;
   const SimulationConfig& config_;
@@ -180,7 +192,9 @@ class Simulation {
   base::Random laserNoise_;
   base::Random lidarNoise_;
   base::Random depthNoise_;
+  base::Random colorNoise_;
   base::Random labelNoise_;
+  LidarModel lidar_;
   Writer writer_;
 };
 
@@ -214,7 +228,6 @@ evaluation::Truth simulate(Building building, const SimulationOptions& options, 
     if (onProgress) onProgress({.done = moment.seconds, .total = duration});
   }
   auto truth = simulation.finish();
-  truth.seed = options.seed;
   truth.labels = toString(options.labels);
   return truth;
 }

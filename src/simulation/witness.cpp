@@ -4,6 +4,9 @@
 
 #include "prodomos/simulation/furniture.hpp"
 #include "prodomos/simulation/person.hpp"
+#include "prodomos/simulation/shell.hpp"
+
+#include "simulation/openings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,32 +42,32 @@ Eigen::Vector3d at(const Eigen::Vector2d& point, double z) {
   return {point.x(), point.y(), z};
 }
 
-/// In the door's axes: where a leaf turns, where it lies when closed, and how far it reaches.
-struct LeafSpan {
-  Eigen::Vector2d hinge;
-  double width;
-};
-
-std::vector<LeafSpan> leafSpans(const Door& door) {
-  const double half = door.width / 2.0;
-  if (door.leaves == 2) return {{{0.0, half}, half}, {{0.0, -half}, half}};
-  return {{{0.0, door.hingeSide == map::HingeSide::kRight ? -half : half}, door.width}};
+std::vector<Spot> spotsOfRectangle(const Eigen::Vector3d& corner, const Eigen::Vector3d& along, double height) {
+  std::vector<Spot> spots;
+  const Eigen::Vector3d normal = along.cross(Eigen::Vector3d::UnitZ()).normalized();
+  for (int i = 0; i < kAcross; ++i) {
+    for (int j = 0; j < kUp; ++j) {
+      spots.push_back({corner + along * ((i + 0.5) / kAcross) + at({0.0, 0.0}, height * (j + 0.5) / kUp), normal});
+    }
+  }
+  return spots;
 }
 
 /// Spots of the leaves at that angle, always as many in the same order; of a doorway those of its opening.
-std::vector<Spot> spotsOf(const Door& door, double floor_z, double angle) {
-  std::vector<Spot> spots;
+std::vector<Spot> spotsOf(const Door& door, double leafOffset, double floor_z, double angle) {
   const auto T_world_door = geometry::toPose3(door.pose, floor_z);
-  for (const auto& span : leafSpans(door)) {
-    const double closed = span.hinge.y() > 0.0 ? -1.0 : 1.0;  // the way from the hinge to the other edge, along y
-    const double ahead = door.opensAlongNormal ? 1.0 : -1.0;
-    const Eigen::Vector2d along(ahead * std::sin(angle), closed * std::cos(angle));
-    const Eigen::Vector3d normal = T_world_door.linear() * Eigen::Vector3d(along.y(), -along.x(), 0.0);
-    for (int i = 0; i < kAcross; ++i) {
-      const Eigen::Vector2d foot = span.hinge + along * span.width * (i + 0.5) / kAcross;
-      for (int j = 0; j < kUp; ++j) {
-        spots.push_back({T_world_door * at(foot, door.height * (j + 0.5) / kUp), normal});
-      }
+  const auto hinges = hingesOf(door);
+  if (hinges.empty()) {
+    const Eigen::Vector3d along = T_world_door.linear() * at({0.0, door.width}, 0.0);
+    return spotsOfRectangle(T_world_door.translation() - along / 2.0, along, door.height);
+  }
+  std::vector<Spot> spots;
+  for (const auto& hinge : hinges) {
+    const double closed = hinge.y_in_door > 0.0 ? -1.0 : 1.0;  // the way from the hinge to the other edge
+    const Eigen::Vector2d along = Eigen::Rotation2Dd(hinge.turn * angle) * Eigen::Vector2d(0.0, closed);
+    for (const auto& spot : spotsOfRectangle(T_world_door * at({leafOffset, hinge.y_in_door}, 0.0),
+                                             T_world_door.linear() * at(along * leafWidthOf(door), 0.0), door.height)) {
+      spots.push_back(spot);
     }
   }
   return spots;
@@ -186,12 +189,14 @@ std::vector<evaluation::TruePlane> planesOf(const Building& building) {
     const auto& storey = building.storeys[static_cast<std::size_t>(room.storey)];
     planes.push_back(floorOrCeilingOf(room, storey, true));
     planes.push_back(floorOrCeilingOf(room, storey, false));
-    for (std::size_t edge = 0; edge < room.outline.size(); ++edge) planes.push_back(wallOf(room, edge, storey));
+    for (std::size_t edge = 0; edge < room.outline.size(); ++edge) {
+      if (!isSlit(room.outline, edge)) planes.push_back(wallOf(room, edge, storey));
+    }
   }
   return planes;
 }
 
-evaluation::TrueDoor truthOf(const Building& building, std::size_t index, base::Time begin) {
+evaluation::TrueDoor truthOf(const Building& building, std::size_t index, base::Time begin, std::uint64_t seed) {
   const auto& door = building.doors[index];
   return {.id = door.id,
           .instance = doorInstance(index),
@@ -201,6 +206,7 @@ evaluation::TrueDoor truthOf(const Building& building, std::size_t index, base::
           .width = door.width,
           .height = door.height,
           .wallThickness = door.wallThickness,
+          .leafOffset = leafOffset(building, index, seed),
           .leaves = door.leaves,
           .hingeSide = door.leaves == 1 ? door.hingeSide : map::HingeSide::kUnknown,
           .states = statesOf(door, begin)};
@@ -223,8 +229,8 @@ evaluation::TrueStaircase truthOf(const Building& building, std::size_t index) {
 
 }  // namespace
 
-evaluation::Truth truthOf(const Building& building, base::Time begin) {
-  evaluation::Truth truth{.building = building.name, .classes = classTable()};
+evaluation::Truth truthOf(const Building& building, base::Time begin, std::uint64_t seed) {
+  evaluation::Truth truth{.building = building.name, .seed = seed, .classes = classTable()};
   for (const auto& storey : building.storeys) truth.storeys.push_back({storey.floor_z, storey.ceilingHeight});
   for (const auto& room : building.rooms) {
     truth.rooms.push_back({.id = room.id,
@@ -233,7 +239,7 @@ evaluation::Truth truthOf(const Building& building, base::Time begin) {
                            .use = std::string(toString(room.use)),
                            .outline = room.outline});
   }
-  for (std::size_t i = 0; i < building.doors.size(); ++i) truth.doors.push_back(truthOf(building, i, begin));
+  for (std::size_t i = 0; i < building.doors.size(); ++i) truth.doors.push_back(truthOf(building, i, begin, seed));
   for (std::size_t i = 0; i < building.stairs.size(); ++i) truth.stairs.push_back(truthOf(building, i));
   for (std::size_t i = 0; i < building.things.size(); ++i) {
     const auto& thing = building.things[i];
@@ -316,7 +322,7 @@ Witness::Witness(const Building& building, const CameraModel& camera, evaluation
     }
   }
   for (const auto& door : building.doors) {
-    leafIsSeen_.emplace_back(leafSpans(door).size() * kAcross * kUp, false);
+    leafIsSeen_.emplace_back(std::max<std::size_t>(1, hingesOf(door).size()) * kAcross * kUp, false);
   }
   for (const auto& stairs : building.stairs) {
     stepIsSeen_.emplace_back();
@@ -383,7 +389,7 @@ void Witness::lookAtDoor(std::size_t index, base::Time time, double seconds, con
   const Eigen::Vector2d toDoor = Eigen::Vector2d(door.pose.x, door.pose.y) - view.eye.head<2>();
   if (door.storey != view.storey || toDoor.norm() > kMostRange + door.width) return;
   const double floor_z = building_.storeys[static_cast<std::size_t>(door.storey)].floor_z;
-  const auto spots = spotsOf(door, floor_z, openingAngle(door, seconds));
+  const auto spots = spotsOf(door, truth_.doors[index].leafOffset, floor_z, openingAngle(door, seconds));
   std::vector<bool> here(spots.size());
   for (std::size_t i = 0; i < spots.size(); ++i) {
     here[i] = door.leaves == 0 ? view.looksThrough(spots[i]) : view.shows(spots[i], doorInstance(index));

@@ -59,7 +59,7 @@ class WitnessTest : public ::testing::Test {
   void build(Building building, std::vector<Surface> surfaces) {
     building_ = std::move(building);
     building_.lighting.lamps = {{5.0, 0.0, 2.9}};
-    truth_ = truthOf(building_, kBegin);
+    truth_ = truthOf(building_, kBegin, 1);
     scene_ = std::make_unique<RayScene>(std::move(surfaces));
     witness_ = std::make_unique<Witness>(building_, CameraModel{}, truth_);
   }
@@ -225,7 +225,7 @@ TEST_F(WitnessTest, OfAWallTheSeenPartCounts) {
 }
 
 TEST(Truth, OfABuildingHasEveryWallFloorAndCeiling) {
-  const auto truth = truthOf(hallWithADoor(), kBegin);
+  const auto truth = truthOf(hallWithADoor(), kBegin, 1);
   EXPECT_EQ(truth.planes.size(), 2U * 6U);
   for (const auto& plane : truth.planes) {
     EXPECT_NEAR(plane.T_world_plane.linear().determinant(), 1.0, 1e-12) << plane.id;
@@ -244,7 +244,7 @@ TEST(Truth, OfABuildingHasEveryWallFloorAndCeiling) {
 TEST(Truth, OfADoorTellsItsStatesAsItSwings) {
   auto building = hallWithADoor();
   building.doors[0].swings = {{10.0, 0.0}, {12.0, std::numbers::pi / 2.0}, {20.0, std::numbers::pi / 2.0}, {22.0, 0.0}};
-  const auto truth = truthOf(building, kBegin);
+  const auto truth = truthOf(building, kBegin, 1);
   std::vector<map::DoorState> states;
   for (const auto& state : truth.doors[0].states) states.push_back(state.state);
   using enum map::DoorState;
@@ -255,9 +255,9 @@ TEST(Truth, OfADoorTellsItsStatesAsItSwings) {
 
 TEST(Truth, OfADoubleDoorTellsNoHinge) {
   auto building = hallWithADoor();
-  EXPECT_EQ(truthOf(building, kBegin).doors[0].hingeSide, map::HingeSide::kLeft);
+  EXPECT_EQ(truthOf(building, kBegin, 1).doors[0].hingeSide, map::HingeSide::kLeft);
   building.doors[0].leaves = 2;
-  EXPECT_EQ(truthOf(building, kBegin).doors[0].hingeSide, map::HingeSide::kUnknown);
+  EXPECT_EQ(truthOf(building, kBegin, 1).doors[0].hingeSide, map::HingeSide::kUnknown);
 }
 
 }  // namespace

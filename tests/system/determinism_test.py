@@ -4,10 +4,8 @@
 """The same log, configuration and version make the same map, byte for byte in every export, on however many cores."""
 
 import os
-import subprocess
-import unittest
 
-from program import SystemTest, dataset, exports, main, tables
+from program import ROOT, SystemTest, dataset, exports, main, run, tables
 
 
 def on_one_core():
@@ -35,12 +33,10 @@ class Determinism(SystemTest):
     def test_of_depth_images_without_poses(self):
         self.check(dataset("rgbd/tum_fr3_structure"), "--poses", "estimated")
 
-    def test_of_the_demo(self):
-        generator = os.environ.get("PRODOMOS_DEMO_LOG", "")
-        if not os.path.exists(generator):
-            raise unittest.SkipTest("the demo's generator is not built (PRODOMOS_DEMO_LOG)")
-        log = self.folder / "demo.rawlog"
-        subprocess.run([generator, log], check=True, capture_output=True)
+    def test_of_laser_and_depth_images_together(self):
+        log = self.folder / "office.rawlog"
+        done = run("simulate", ROOT / "configs/sample_office.scene.yaml", "--seed", "7", "--frames", "100", "-o", log)
+        self.assertEqual(done.returncode, 0, done.stderr)
         self.check(log)
 
 

@@ -19,6 +19,10 @@ namespace prodomos::simulation {
 /// its two rooms, so that what lies between outlines is solid.
 std::vector<Surface> shellOf(const Building& building, std::uint64_t seed);
 
+/// Where in its wall the closed leaf hangs: its middle, along the door's x-axis from the middle of the wall, metres. 0
+/// for a doorway.
+double leafOffset(const Building& building, std::size_t door, std::uint64_t seed);
+
 /// The leaf or leaves of one door as they stand at a time, world frame: with handles on both sides; the instance is
 /// doorInstance(door), the class "door", of a lift "lift_door". As many surfaces and triangles, in the same order, at
 /// all times. Empty for a doorway.

@@ -35,11 +35,13 @@ struct SimulationConfig {
   double speed = 0.6;     ///< of the robot, m/s
   double turnRate = 0.8;  ///< rad/s
   Mount camera{};
+  double shutter = 0.0;  ///< seconds that it is open: what motion blurs; 0: nothing
   DepthNoise depthNoise{};
   Mount laser{.rate = 10.0, .height = 0.35, .forward = 0.2};
   LaserModel laserModel{};
   Mount lidar{.rate = 0.0, .height = 1.0, .forward = 0.0};
-  LidarModel lidarModel{};
+  int lidarRings = 0;       ///< 0: 16 of them, 1: 64
+  LidarModel lidarModel{};  ///< but for its elevations
   double wheelRate = 20.0;
   WheelModel wheels{};
   LabelDegradation degradation{};

@@ -11,12 +11,13 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace prodomos::simulation {
 
-/// What can be known of the building itself, before anybody has seen any of it.
-evaluation::Truth truthOf(const Building& building, base::Time begin);
+/// What can be known of the building itself, before anybody has seen any of it. `seed`: of the shell and its looks.
+evaluation::Truth truthOf(const Building& building, base::Time begin, std::uint64_t seed);
 
 /// Goes with the robot and keeps account of what its camera has come to see (docs/truth.md says what counts as seen).
 class Witness {
