@@ -347,7 +347,10 @@ void Explorer::changeFloor(const FloorChange& change) {
   const auto node = roadmap().nearestNode(begin);
   driver_.stand(0.0);
   const auto way = roadmap().path(driver_.position(), routes, *node, begin);
-  if (!way) return;
+  if (!way) {
+    remarks_.push_back("the robot finds no way to what leads from storey " + std::to_string(storey()) + " to another");
+    return;
+  }
   driver_.follow(*way, Driver::AtEnd::kStop);
   if (change.byLift) {
     driver_.turnBy(std::numbers::pi);
@@ -355,7 +358,10 @@ void Explorer::changeFloor(const FloorChange& change) {
   } else {
     driver_.carryAlong(change.way, change.to);
   }
-  if (driver_.isOver()) return;
+  if (driver_.isOver()) {
+    remarks_.push_back("the time ends before the robot is on another storey");
+    return;
+  }
   ++stage_;
   stageBegin_ = driver_.now().time;
   visited_[storey()] = true;

@@ -3,6 +3,7 @@
 #include "prodomos/simulation/navigation.hpp"
 
 #include "simulation/distance_field.hpp"
+#include "simulation/openings.hpp"
 #include "simulation/passing.hpp"
 #include "simulation/shell_parts.hpp"
 
@@ -250,10 +251,12 @@ void FloorGrid::drawDoors(const Building& building) {
   for (std::size_t i = 0; i < building.doors.size(); ++i) {
     const auto& door = building.doors[i];
     if (door.storey != storey_ || !canBePassed(building, door)) continue;
-    // As deep as the wall and the cells of the faces, which count as wall.
-    const double depth = door.wallThickness + 3.0 * resolution_;
     doors_.emplace_back(door.pose.x, door.pose.y);
-    fill(rectangle(doors_.back(), door.pose.theta, depth, door.width), firstDoor_ + static_cast<std::int32_t>(i));
+    // From face to face, and the cells of the faces, which count as wall.
+    const double back = std::ranges::min(faceOf(building, door, 0)) - 1.5 * resolution_;
+    const double front = std::ranges::max(faceOf(building, door, 1)) + 1.5 * resolution_;
+    const Eigen::Vector2d middle = door.pose * Eigen::Vector2d((back + front) / 2.0, 0.0);
+    fill(rectangle(middle, door.pose.theta, front - back, door.width), firstDoor_ + static_cast<std::int32_t>(i));
   }
 }
 
