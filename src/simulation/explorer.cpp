@@ -28,6 +28,10 @@ constexpr double kTurnPrice = 0.8;
 constexpr double kGreatestWhim = 5.0;
 /// The least time on one storey, seconds.
 constexpr double kLeastStage = 45.0;
+/// Ways take longer than their length says: bends, and turns on the spot.
+constexpr double kShareOfSpeed = 0.7;
+/// Of all time, what the way from the start to the nearest lift or stairs may take.
+constexpr double kShareToChange = 0.4;
 /// Larger rooms are not crossed before one turns round in them, m².
 constexpr double kLargeRoom = 60.0;
 
@@ -73,6 +77,21 @@ double areaOf(const Room& room) {
   return std::abs(signedArea(room.outline));
 }
 
+/// Metres from a point to the nearest way to another storey; infinite where there is none.
+double lengthToChange(const Floors& floors, int storey, const Eigen::Vector2d& point) {
+  const auto& roadmap = floors.roadmaps[static_cast<std::size_t>(storey)];
+  std::optional<Roadmap::Routes> routes;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& change : floors.changes) {
+    if (change.from != storey) continue;
+    if (!routes) routes = roadmap.routesFrom(point);
+    if (const auto node = roadmap.nearestNode(change.way.front().head<2>())) {
+      least = std::min(least, routes->lengths[*node]);
+    }
+  }
+  return least;
+}
+
 /// Rooms one may start in: corridors; without any, the room with most doors.
 bool isCorridorLike(const Building& building, int room, bool hasCorridors) {
   if (hasCorridors) return isCorridor(building.rooms[static_cast<std::size_t>(room)]);
@@ -96,12 +115,13 @@ Floors::Floors(const Building& building, double clearance) {
   changes = floorChanges(building, grids);
 }
 
-DrivenPose startOf(const Building& building, const Floors& floors, std::uint64_t seed) {
+DrivenPose startOf(const Building& building, const Floors& floors, const TourOptions& options) {
   struct Candidate {
     int storey;
     Eigen::Vector2d position;
     std::ptrdiff_t everywhere;  ///< nodes one can come to
     std::ptrdiff_t openly;      ///< without opening a room's door
+    double toOtherStorey;       ///< metres to the nearest lift or stairs
   };
   std::vector<Candidate> candidates;
   const auto collect = [&](const auto& isWanted) {
@@ -114,7 +134,8 @@ DrivenPose startOf(const Building& building, const Floors& floors, std::uint64_t
       for (const auto& node : roadmap.nodes()) {
         if (node.door || !isWanted(node.room)) continue;
         const int storey = building.rooms[static_cast<std::size_t>(node.room)].storey;
-        candidates.push_back({storey, node.position, reachedBy(node, anyDoor), reachedBy(node, isOpen)});
+        candidates.push_back({storey, node.position, reachedBy(node, anyDoor), reachedBy(node, isOpen),
+                              lengthToChange(floors, storey, node.position)});
       }
     }
   };
@@ -127,7 +148,13 @@ DrivenPose startOf(const Building& building, const Floors& floors, std::uint64_t
     const auto most = std::ranges::max(candidates, {}, reached).*reached;
     std::erase_if(candidates, [&](const Candidate& candidate) { return 2 * candidate.*reached < most; });
   }
-  base::Random random(seed, "start of the tour");
+  // So near to lift or stairs that there is time for another storey.
+  const double nearest = std::ranges::min(candidates, {}, &Candidate::toOtherStorey).toOtherStorey;
+  const double inTime = std::max(nearest, kShareToChange * options.duration * kShareOfSpeed * options.speed);
+  if (std::isfinite(nearest)) {
+    std::erase_if(candidates, [&](const Candidate& candidate) { return candidate.toOtherStorey > inTime; });
+  }
+  base::Random random(options.seed, "start of the tour");
   const auto& start = candidates[static_cast<std::size_t>(random.integer(0, static_cast<int>(candidates.size()) - 1))];
   const auto lengths = openings(floors.grids[static_cast<std::size_t>(start.storey)], start.position, 8.0);
   const auto longest = static_cast<double>(std::ranges::max_element(lengths) - lengths.begin());
@@ -311,9 +338,7 @@ double Explorer::stageEnd() const {
 }
 
 bool Explorer::isTimeToLeave(const FloorChange& change) {
-  // Ways take longer than their length says: bends, and turns on the spot.
-  constexpr double kShareOfSpeed = 0.7;
-  constexpr double kReserve = 8.0;  // seconds
+  constexpr double kReserve = 16.0;  // seconds, as long as looking at one thing more may take
   const auto routes = roadmap().routesFrom(driver_.position());
   const auto node = roadmap().nearestNode(change.way.front().head<2>());
   if (!node) return true;
@@ -331,8 +356,12 @@ const FloorChange* Explorer::chooseChange() {
     if (change.from != static_cast<int>(storey()) || visited_[static_cast<std::size_t>(change.to)]) continue;
     const auto node = roadmap().nearestNode(change.way.front().head<2>());
     if (!node || !std::isfinite(routes.lengths[*node])) continue;
-    constexpr double kOtherKind = 1e6;  // farther than all of the kind that is preferred
-    const double price = routes.lengths[*node] + (change.byLift == prefersLift ? 0.0 : kOtherKind);
+    // Farther than all of the kind that is preferred, and farther than all that it comes to in time.
+    constexpr double kOtherKind = 1e6;
+    constexpr double kTooFar = 1e7;
+    const double inTime = (stageEnd() - driver_.now().time) * kShareOfSpeed * options_.speed;
+    const double price = routes.lengths[*node] + (change.byLift == prefersLift ? 0.0 : kOtherKind) +
+                         (routes.lengths[*node] > inTime ? kTooFar : 0.0);
     if (price >= least) continue;
     least = price;
     best = &change;

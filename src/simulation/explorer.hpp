@@ -27,9 +27,9 @@ struct Floors {
   Floors(const Building& building, double clearance);
 };
 
-/// Where an exploration begins: a corridor from which much can be reached, or what comes nearest to it. Throws
-/// base::Error where nothing can be stood in.
-DrivenPose startOf(const Building& building, const Floors& floors, std::uint64_t seed);
+/// Where an exploration begins: a corridor from which much can be reached, other storeys in time, or what comes nearest
+/// to it. Throws base::Error where nothing can be stood in.
+DrivenPose startOf(const Building& building, const Floors& floors, const TourOptions& options);
 
 /// Decides where a robot goes next, and has it driven there.
 class Explorer {

@@ -147,7 +147,7 @@ Tour planTour(Building& building, const TourOptions& options) {
   };
   Tour tour;
   const auto start =
-      options.path.empty() ? startOf(building, floors, options.seed) : startOf(building, floors, options.path);
+      options.path.empty() ? startOf(building, floors, options) : startOf(building, floors, options.path);
   Driver driver(options, start, mustWait);
   if (options.path.empty()) {
     Explorer explorer(building, floors, options, driver);
