@@ -23,7 +23,7 @@ void describe(base::ConfigVisitor& visitor, RangeNoise& noise) {
   visitor.key("sigma", noise.sigma, "m", {0.0, 1.0}, "standard deviation of a range");
   visitor.key("least_range", noise.leastRange, "m", {0.0, 10.0}, "what is nearer says nothing");
   visitor.key("max_range", noise.maxRange, "m", {0.5, 500.0}, "what is farther has no return");
-  visitor.key("missing", noise.missing, "", kShare, "share of beams that are lost without a cause");
+  visitor.key("missing", noise.missing, "", kShare, "share of beams whose measurement fails, and is flagged so");
 }
 
 void describe(base::ConfigVisitor& visitor, DepthNoise& noise) {

@@ -6,7 +6,7 @@
 #include "prodomos/simulation/person.hpp"
 #include "prodomos/simulation/shell.hpp"
 
-#include "simulation/openings.hpp"
+#include "simulation/shell/openings.hpp"
 
 #include <algorithm>
 #include <cmath>

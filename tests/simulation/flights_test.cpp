@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the prodomos authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/flights.hpp"
+#include "simulation/worlds/flights.hpp"
 
 #include "tiny_world.hpp"
 

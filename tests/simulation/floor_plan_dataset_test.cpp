@@ -3,7 +3,7 @@
 // All plans of the data set. PRODOMOS_TABLE=1 prints the table of docs/floor-plans.md.
 #include "prodomos/simulation/floor_plan.hpp"
 
-#include "simulation/plan_drawing.hpp"
+#include "simulation/plans/plan_drawing.hpp"
 #include "simulation/polygons.hpp"
 #include "support/datasets.hpp"
 

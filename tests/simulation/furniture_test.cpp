@@ -6,7 +6,7 @@
 #include "prodomos/simulation/scene_file.hpp"
 
 #include "simulation/buildings.hpp"
-#include "simulation/scene_geometry.hpp"
+#include "simulation/scenes/scene_geometry.hpp"
 #include "support/datasets.hpp"
 
 #include <gmock/gmock.h>

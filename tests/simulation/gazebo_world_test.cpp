@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the prodomos authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/gazebo_world.hpp"
+#include "simulation/worlds/gazebo_world.hpp"
 
 #include "prodomos/base/error.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the prodomos authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/mesh_file.hpp"
+#include "simulation/worlds/mesh_file.hpp"
 
 #include "prodomos/base/error.hpp"
 

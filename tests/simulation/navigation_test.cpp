@@ -5,8 +5,8 @@
 #include "prodomos/base/random.hpp"
 
 #include "simulation/buildings.hpp"
-#include "simulation/distance_field.hpp"
 #include "simulation/ways.hpp"
+#include "simulation/ways/distance_field.hpp"
 
 #include <gtest/gtest.h>
 

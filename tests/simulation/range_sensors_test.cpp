@@ -118,7 +118,7 @@ TEST(Laser, LosesTheShareOfBeamsItIsToldTo) {
   const LaserModel model{.beams = 20001, .noise = {.missing = 0.05}};
   const auto scan = castLaser(scene, geometry::fromYawPitchRoll({0.0, 0.0, 0.4}, 0.0, 0.0, 0.0),
                               geometry::Pose3::Identity(), model, random);
-  EXPECT_NEAR(static_cast<double>(std::ranges::count(scan.ranges, sensors::LaserScan::kNoReturn)), 1000.0, 120.0);
+  EXPECT_NEAR(static_cast<double>(std::ranges::count(scan.ranges, sensors::LaserScan::kInvalid)), 1000.0, 120.0);
 }
 
 TEST(Laser, IsTheSameForTheSameSeed) {

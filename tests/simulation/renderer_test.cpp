@@ -4,7 +4,7 @@
 
 #include "prodomos/simulation/color_noise.hpp"
 
-#include "simulation/patterns.hpp"
+#include "simulation/sensing/patterns.hpp"
 #include "support/simulated_rooms.hpp"
 
 #include <Eigen/Geometry>

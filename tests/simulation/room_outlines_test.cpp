@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the prodomos authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/room_outlines.hpp"
+#include "simulation/worlds/room_outlines.hpp"
 
 #include "tiny_world.hpp"
 

@@ -5,7 +5,7 @@
 #include "prodomos/base/error.hpp"
 #include "prodomos/simulation/furniture.hpp"
 
-#include "simulation/scene_geometry.hpp"
+#include "simulation/scenes/scene_geometry.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the prodomos authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/scene_geometry.hpp"
+#include "simulation/scenes/scene_geometry.hpp"
 
 #include "prodomos/base/random.hpp"
 

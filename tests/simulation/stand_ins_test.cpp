@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the prodomos authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulation/stand_ins.hpp"
+#include "simulation/worlds/stand_ins.hpp"
 
 #include "prodomos/simulation/furniture.hpp"
 

@@ -18,7 +18,7 @@ struct RangeNoise {
   double leastRange = 0.1;    ///< metres; what is nearer says nothing
   double maxRange = 30.0;     ///< metres
   double leastSignal = 5e-4;  ///< that must come back: infrared share · cosine / range², range in metres
-  double missing = 0.002;     ///< share of beams that are lost without a cause
+  double missing = 0.002;     ///< share of beams whose measurement fails, and is flagged so
 };
 
 /// A scanner in its own x-y-plane. The default is like Hokuyo's UTM-30LX, every second beam of it.
