@@ -79,8 +79,11 @@ class Simulate(SystemTest):
 
     def test_the_robot_drives_the_path_that_it_is_given(self):
         _, truth = self.simulate("log", "--path", "1,1.2", "11,1.2", frames=30)
-        positions = [pose["position"] if "position" in pose else pose for pose in truth["trajectory"]]
-        self.assertGreater(len(positions), 30)
+        begin, end = truth["trajectory"][0]["pose"], truth["trajectory"][-1]["pose"]
+        for value, expected in zip(begin[:3], (1, 1.2, 0)):
+            self.assertAlmostEqual(value, expected, delta=0.05)
+        self.assertGreater(end[0], 3)
+        self.assertLess(max(abs(pose["pose"][1] - 1.2) for pose in truth["trajectory"]), 0.3)
 
     # --- the log ---
 
@@ -90,9 +93,11 @@ class Simulate(SystemTest):
             map_file = self.folder / f"{flavour}.prodomos"
             self.replay(log, map_file)
             self.check_whole(map_file)
-            score = json.loads(run("info", map_file, "--json").stdout)
-            self.assertGreaterEqual(score["submaps"] if isinstance(score.get("submaps"), int) else 1, 1)
-            self.assertGreater(len(truth["trajectory"]), 0)
+            with sqlite3.connect(map_file) as database:
+                mapped = database.execute("SELECT count(*) FROM trajectory").fetchone()[0]
+            database.close()
+            self.assertGreater(mapped, 15, flavour)
+            self.assertEqual(len(truth["trajectory"]), 45, flavour)  # 15 frames and 30 scans
 
     def test_the_tools_of_mrpt_read_the_log(self):
         tool = shutil.which("rawlog-edit")
@@ -109,11 +114,12 @@ class Simulate(SystemTest):
         log, truth = self.simulate("log", "--poses", frames=40)
         map_file = self.folder / "map.prodomos"
         self.replay(log, map_file, "--poses", "estimated")
-        with sqlite3.connect(map_file) as database:
-            poses = database.execute("SELECT count(*) FROM trajectory").fetchone()[0]
-        database.close()
-        self.assertGreater(poses, 40)
-        self.assertGreaterEqual(len(truth["trajectory"]), poses)
+        poses = self.write("truth.txt", "".join(
+            f"{pose['time']} {' '.join(map(str, pose['pose']))}\n" for pose in truth["trajectory"]))
+        score = json.loads(run("evaluate", "trajectory", map_file, "--truth", poses, "--truth-frame", "body",
+                               "--json").stdout)
+        self.assertGreater(score["matched"], 40)
+        self.assertLess(score["ate_m"]["rmse"], 0.05)
 
     # --- floor plans and worlds ---
 
