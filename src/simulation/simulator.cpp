@@ -114,7 +114,7 @@ class Simulation {
         writer_.add({time, "truth", sensors::RecordedPose{T_world_body}});
         break;
       case Event::kLaser: {
-        setTime(moment.seconds);
+        setTime(moment.seconds, T_world_body);
         const auto T_body_sensor = poseOf(config_.laser);
         writer_.add(
             {time, "laser",
@@ -123,7 +123,7 @@ class Simulation {
         break;
       }
       case Event::kLidar: {
-        setTime(moment.seconds);
+        setTime(moment.seconds, T_world_body);
         const auto T_body_sensor = poseOf(config_.lidar);
         writer_.add(
             {time, "lidar",
@@ -131,7 +131,7 @@ class Simulation {
         break;
       }
       case Event::kCamera:
-        setTime(moment.seconds);
+        setTime(moment.seconds, T_world_body);
         look(time, moment.seconds, T_world_body);
         writer_.flush();
         break;
@@ -145,10 +145,10 @@ class Simulation {
   }
 
  private:
-  void setTime(double seconds) {
+  void setTime(double seconds, const geometry::Pose3& T_world_body) {
     if (seconds == stageTime_) return;
     stageTime_ = seconds;
-    stage_.setTime(seconds);
+    stage_.setTime(seconds, T_world_body.translation() + Eigen::Vector3d::UnitZ(), options_.threads);
   }
 
   void look(base::Time time, double seconds, const geometry::Pose3& T_world_body) {

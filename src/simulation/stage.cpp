@@ -4,8 +4,13 @@
 
 #include "prodomos/simulation/furniture.hpp"
 #include "prodomos/simulation/person.hpp"
+#include "prodomos/simulation/population.hpp"
 #include "prodomos/simulation/shell.hpp"
 
+#include "simulation/sensing/parallel_rows.hpp"
+
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace prodomos::simulation {
@@ -41,14 +46,22 @@ Stage::Stage(const Building& building, std::uint64_t seed) : building_(building)
   scene_ = std::make_unique<RayScene>(fixedSurfaces(building, seed), std::move(moving));
 }
 
-void Stage::setTime(double seconds) {
+void Stage::setTime(double seconds, const Eigen::Vector3d& eye, int threads) {
   for (std::size_t i = 0; i < doors_.size(); ++i) {
     const double angle = openingAngle(building_.doors[doors_[i].index], seconds);
     if (angle == angles_[i]) continue;
     angles_[i] = angle;
     move(doors_[i], leaves(doors_[i].index, seconds));
   }
-  for (const auto& person : people_) move(person, body(person.index, seconds));
+  std::vector<Moving> seen;
+  std::ranges::copy_if(people_, std::back_inserter(seen),
+                       [&](const Moving& person) { return canBeSeen(building_.people[person.index], seconds, eye); });
+  std::vector<std::vector<Surface>> bodies(seen.size());
+  forRows(static_cast<int>(seen.size()), threads, [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    bodies[at] = body(seen[at].index, seconds);
+  });
+  for (std::size_t i = 0; i < seen.size(); ++i) move(seen[i], bodies[i]);
   scene_->commit();
 }
 
@@ -60,6 +73,13 @@ std::vector<Surface> Stage::body(std::size_t person, double seconds) const {
   const auto& one = building_.people[person];
   return bodyAt(one, building_.storeys[static_cast<std::size_t>(one.storey)].floor_z, seconds,
                 personInstance(building_, person));
+}
+
+bool Stage::canBeSeen(const Person& person, double seconds, const Eigen::Vector3d& eye) const {
+  constexpr double kNear = 12.0;  // metres: through a stairwell
+  const double floor_z = building_.storeys[static_cast<std::size_t>(person.storey)].floor_z;
+  const double above = eye.z() - floor_z;
+  return (above > 0.0 && above < 2.5) || (positionAt(person, seconds) - eye.head<2>()).norm() < kNear;
 }
 
 void Stage::move(const Moving& moving, const std::vector<Surface>& surfaces) {

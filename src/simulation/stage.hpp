@@ -17,8 +17,9 @@ class Stage {
  public:
   Stage(const Building& building, std::uint64_t seed);
 
-  /// Doors swing, people move to where they are then, seconds since the log began.
-  void setTime(double seconds);
+  /// Doors swing, people move to where they are then, seconds since the log began: all whom one can see from `eye`, on
+  /// the same storey or near by. The others stay as they were.
+  void setTime(double seconds, const Eigen::Vector3d& eye, int threads = 0);
   const RayScene& scene() const { return *scene_; }
 
  private:
@@ -30,6 +31,7 @@ class Stage {
 
   std::vector<Surface> leaves(std::size_t door, double seconds) const;
   std::vector<Surface> body(std::size_t person, double seconds) const;
+  bool canBeSeen(const Person& person, double seconds, const Eigen::Vector3d& eye) const;
   void move(const Moving& moving, const std::vector<Surface>& surfaces);
 
   const Building& building_;

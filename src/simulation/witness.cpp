@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -313,7 +312,11 @@ struct Witness::View {
 };
 
 Witness::Witness(const Building& building, const CameraModel& camera, evaluation::Truth& truth)
-    : building_(building), camera_(camera), truth_(truth), pixelArea_(camera.width, camera.height) {
+    : building_(building),
+      camera_(camera),
+      truth_(truth),
+      pixelArea_(camera.width, camera.height),
+      instanceCount_(personInstance(building, building.people.size())) {
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
       // What is seen through a pixel is smaller towards the corners, by the length of its ray.
@@ -445,32 +448,32 @@ void Witness::lookAtPlanes(const View& view) {
 
 void Witness::countPixels(base::Time time, double seconds, const View& view) {
   const auto& rendering = view.rendering;
-  std::map<std::uint16_t, std::pair<int, double>> seen;  // pixels and m², by instance
+  struct Seen {
+    int pixels = 0;
+    double area = 0.0;  // m²
+  };
+  std::vector<Seen> seen(instanceCount_);
   for (int y = 0; y < camera_.height; ++y) {
     for (int x = 0; x < camera_.width; ++x) {
       const auto instance = rendering.instances(x, y);
       if (instance == 0) continue;
-      auto& [pixels, area] = seen[instance];
       const double depth = rendering.depth(x, y);
-      ++pixels;
-      area += depth * depth * pixelArea_(x, y) / std::max(0.1F, rendering.cosine(x, y));
+      ++seen[instance].pixels;
+      seen[instance].area += depth * depth * pixelArea_(x, y) / std::max(0.1F, rendering.cosine(x, y));
     }
   }
   for (auto& object : truth_.objects) {
-    if (const auto entry = seen.find(object.instance); entry != seen.end()) {
-      object.seen = std::max(object.seen, entry->second.second);
-    }
+    object.seen = std::max(object.seen, seen[object.instance].area);
   }
   for (std::size_t i = 0; i < building_.people.size(); ++i) {
     const auto& person = building_.people[i];
     const auto state = stateOf(person, building_.storeys[static_cast<std::size_t>(person.storey)].floor_z, seconds);
-    const auto entry = seen.find(truth_.people[i].instance);
     truth_.people[i].states.push_back({.time = time,
                                        .position = state.position,
                                        .heading = state.heading,
                                        .velocity = state.velocity,
                                        .joints = state.joints,
-                                       .pixels = entry == seen.end() ? 0 : entry->second.first});
+                                       .pixels = seen[truth_.people[i].instance].pixels});
   }
 }
 

@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
       const auto T_world_camera = somewhere(building, random);
       all.start();
       stageCost.start();
-      stage.setTime(frame);
+      stage.setTime(frame, T_world_camera.translation(), threads);
       stageCost.stop();
       renderCost.start();
       const auto rendering = renderer.render(T_world_camera, threads);

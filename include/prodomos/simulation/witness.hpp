@@ -48,6 +48,7 @@ class Witness {
   CameraModel camera_;
   evaluation::Truth& truth_;
   sensors::Image<float> pixelArea_;                  ///< m², at one metre and seen straight on
+  std::size_t instanceCount_;                        ///< with 0, which is none
   std::vector<std::vector<bool>> leafIsSeen_;        ///< by door, and spot of its leaves or opening
   std::vector<std::vector<StepIsSeen>> stepIsSeen_;  ///< by flight and step
   std::vector<SampledPlane> planes_;                 ///< as many as the truth has
