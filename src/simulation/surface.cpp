@@ -10,7 +10,7 @@
 namespace prodomos::simulation {
 
 const sensors::ClassTable& classTable() {
-  static const sensors::ClassTable table = [] {
+  static const sensors::ClassTable kTable = [] {
     constexpr std::array kNames = {"unlabeled", "wall",      "floor",    "ceiling", "door",   "door_frame", "window",
                                    "stairs",    "ramp",      "handrail", "person",  "table",  "chair",      "sofa",
                                    "bed",       "cupboard",  "shelf",    "counter", "board",  "poster",     "plant",
@@ -20,7 +20,7 @@ const sensors::ClassTable& classTable() {
     for (std::size_t id = 0; id < kNames.size(); ++id) classes[static_cast<int>(id)] = kNames[id];
     return classes;
   }();
-  return table;
+  return kTable;
 }
 
 std::uint16_t classId(std::string_view name) {
@@ -74,9 +74,9 @@ void append(Surface& surface, const Surface& part) {
 }
 
 Surface transformed(const geometry::Pose3& T_a_b, Surface surface_in_b) {
-  const Eigen::Isometry3f T = T_a_b.cast<float>();
-  for (auto& vertex : surface_in_b.vertices) vertex = T * vertex;
-  for (auto& normal : surface_in_b.normals) normal = T.linear() * normal;
+  const Eigen::Isometry3f T_single = T_a_b.cast<float>();
+  for (auto& vertex : surface_in_b.vertices) vertex = T_single * vertex;
+  for (auto& normal : surface_in_b.normals) normal = T_single.linear() * normal;
   return surface_in_b;
 }
 

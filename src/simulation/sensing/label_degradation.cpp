@@ -25,8 +25,9 @@ class SmoothField {
   double operator()(int x, int y) const {
     const double u = static_cast<double>(x % kSpacing) / kSpacing;
     const double v = static_cast<double>(y % kSpacing) / kSpacing;
-    const auto at = static_cast<std::size_t>(y / kSpacing * columns_ + x / kSpacing);
-    const auto below = at + static_cast<std::size_t>(columns_);
+    const auto columns = static_cast<std::size_t>(columns_);
+    const auto at = static_cast<std::size_t>(y / kSpacing) * columns + static_cast<std::size_t>(x / kSpacing);
+    const auto below = at + columns;
     return std::lerp(std::lerp(values_[at], values_[at + 1], u), std::lerp(values_[below], values_[below + 1], u), v);
   }
 
