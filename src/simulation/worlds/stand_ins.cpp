@@ -41,7 +41,7 @@ double frontOf(const StandIn& standIn, const geometry::Pose2& pose, const std::v
 /// The middle of the thing, moved so that its back touches the wall it stands against, or does not stick in it.
 Eigen::Vector2d middleOf(const StandIn& standIn, const geometry::Pose2& pose, double front, bool hangs,
                          const std::vector<Segment>& walls) {
-  const Eigen::Vector2d middle = Eigen::Vector2d(pose.x, pose.y) + standIn.forward * unit(front);
+  Eigen::Vector2d middle = Eigen::Vector2d(pose.x, pose.y) + standIn.forward * unit(front);
   const double wall = distanceTo(walls, middle, -unit(front));
   const double room = wall - standIn.size.x() / 2.0;
   if (wall > kAgainstWall || (room > 0.0 && !hangs)) return middle;
@@ -69,7 +69,7 @@ std::span<const StandIn> standIns() {
   using Size = Eigen::Vector3d;
   using enum Front;
   using enum Posture;
-  static const std::array table{
+  static const std::array kTable{
       StandIn{"AdjTable", "desk", Size(0.8, 1.6, 0.74)},
       StandIn{"AnesthesiaMachine", "printer", Size(0.65, 0.75, 1.15), kOffWall},
       StandIn{"BMWCart", "cart", Size(0.55, 0.8, 1.0)},
@@ -130,7 +130,7 @@ std::span<const StandIn> standIns() {
       StandIn{"aws_robomaker_warehouse_ClutteringA_01", "box_pile", Size(1.2, 1.1, 1.1)},
       StandIn{"aws_robomaker_warehouse_ClutteringC_01", "box_pile", Size(1.2, 1.1, 1.1)},
   };
-  return table;
+  return kTable;
 }
 
 const StandIn* findStandIn(std::string_view model) {
