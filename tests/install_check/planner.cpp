@@ -6,8 +6,8 @@
 
 int main(int, char** arguments) {
   const auto view = prodomos::map::MapView::open(arguments[1]);
-  const auto start = prodomos::query::placeAt(view, {0.0, 0.0, {}});
-  std::cout << view.graph().nodes().size() << " sub-maps; the origin lies in "
-            << (start.submap ? toString(*start.submap) : "none") << "\n";
-  return start.submap ? 0 : 1;
+  const auto ahead = prodomos::query::placeAt(view, {1.0, 0.0, {}});
+  std::cout << view.graph().nodes().size() << " sub-maps; what lies a metre ahead of the start is in "
+            << (ahead.submap ? toString(*ahead.submap) : "none") << "\n";
+  return ahead.submap ? 0 : 1;
 }
