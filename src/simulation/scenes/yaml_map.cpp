@@ -56,6 +56,7 @@ void Faults::throwIfAny() const {
   auto ordered = faults_;
   std::ranges::stable_sort(ordered, {}, &std::pair<int, std::string>::first);
   std::vector<std::string> lines;
+  lines.reserve(ordered.size());
   for (auto& [line, text] : ordered) lines.push_back(std::move(text));
   throw base::UsageError(std::move(lines));
 }

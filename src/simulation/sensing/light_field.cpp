@@ -165,14 +165,13 @@ void LightField::closeRow(const RayScene& scene, int row) {
 }
 
 void LightField::smoothRow(int row, std::vector<Sample>& smoothed) const {
-  constexpr std::array<float, 3> kWeights{0.25F, 0.5F, 0.25F};
   for (int column = 0; column < columns_; ++column) {
     const Sample& middle = sample(column, row);
     Mean mean;
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
         const Sample& near = sample(std::clamp(column + dx, 0, columns_ - 1), std::clamp(row + dy, 0, rows_ - 1));
-        const float weight = kWeights[static_cast<std::size_t>(dx + 1)] * kWeights[static_cast<std::size_t>(dy + 1)];
+        const float weight = (dx == 0 ? 0.5F : 0.25F) * (dy == 0 ? 0.5F : 0.25F);
         mean.add(near.light, weight * likeness(near.place, middle.place));
       }
     }
