@@ -20,15 +20,15 @@ namespace prodomos::apps {
 
 namespace {
 
-using json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
 using evaluation::Truth;
 using map::MapView;
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 /// Null where the truth has nothing to be counted.
-json countIf(bool countable, std::size_t count) {
-  return countable ? json(count) : json(nullptr);
+Json countIf(bool countable, std::size_t count) {
+  return countable ? Json(count) : Json(nullptr);
 }
 
 /// Errors name the map and the truth.
@@ -48,19 +48,19 @@ Score scoreMap(const MapAndTruth& files, const Truth& truth, const EvaluateOptio
 template <typename Score>
 void evaluateMaps(const std::string& kind, const EvaluateOptions& options,
                   Score (*score)(const MapView&, const Truth&, const EvaluateOptions&),
-                  json (*toJson)(const Score&, const EvaluateOptions&)) {
+                  Json (*toJson)(const Score&, const EvaluateOptions&)) {
   const auto maps = mapsAndTruths(options);
   Score sum;
-  json buildings = json::array();
+  Json buildings = Json::array();
   for (const auto& files : maps) {
     const auto truth = evaluation::readTruth(files.truth);
     const auto part = scoreMap(files, truth, options, score);
     sum += part;
-    json entry = {{"building", truth.building}, {"map", files.map}};
+    Json entry = {{"building", truth.building}, {"map", files.map}};
     entry.update(toJson(part, options));
     buildings.push_back(std::move(entry));
   }
-  json report = toJson(sum, options);
+  Json report = toJson(sum, options);
   report["buildings"] = std::move(buildings);
 
   const std::string title = kind + " of " + (maps.size() == 1 ? maps[0].map : std::to_string(maps.size()) + " maps");
@@ -78,7 +78,7 @@ evaluation::NoiseScore scoreNoiseOf(const MapView& view, const Truth& truth, con
   return evaluation::scoreNoise(view, truth);
 }
 
-json noiseCounts(const std::optional<evaluation::NoiseCounts>& counts, const evaluation::NoiseScore& score) {
+Json noiseCounts(const std::optional<evaluation::NoiseCounts>& counts, const evaluation::NoiseScore& score) {
   if (!counts) return nullptr;
   const bool anything = score.hasPersons || score.hasMovedThings || score.hasTurnedLeaves;
   return {{"occupied", counts->occupied},
@@ -90,11 +90,11 @@ json noiseCounts(const std::optional<evaluation::NoiseCounts>& counts, const eva
           {"others", counts->others}};
 }
 
-json noiseToJson(const evaluation::NoiseScore& score, const EvaluateOptions& /*options*/) {
+Json noiseToJson(const evaluation::NoiseScore& score, const EvaluateOptions& /*options*/) {
   const bool anything = score.hasPersons || score.hasMovedThings || score.hasTurnedLeaves;
   return {{"cells", noiseCounts(score.cells, score)},
           {"free_floor", countIf(score.cells.has_value(), score.freeFloor)},
-          {"noise_share", anything ? measure(score.noiseShare()) : json(nullptr)},
+          {"noise_share", anything ? measure(score.noiseShare()) : Json(nullptr)},
           {"walls", countIf(score.cells.has_value(), score.walls)},
           {"walls_kept", measure(score.wallsKeptShare())},
           {"points", noiseCounts(score.points, score)}};
@@ -134,7 +134,7 @@ std::string nameOf(const sensors::ClassTable& classes, int id) {
   return entry == classes.end() ? std::to_string(id) : entry->second;
 }
 
-json labelsToJson(const OptionalLabelScore& optional, const EvaluateOptions& /*options*/) {
+Json labelsToJson(const OptionalLabelScore& optional, const EvaluateOptions& /*options*/) {
   if (!optional.score) {
     return {{"why", "the map has no layer that holds classes"},
             {"voxels", nullptr},
@@ -146,11 +146,11 @@ json labelsToJson(const OptionalLabelScore& optional, const EvaluateOptions& /*o
             {"confusion", nullptr}};
   }
   const auto& score = *optional.score;
-  json iou = json::object();
+  Json iou = Json::object();
   for (const auto& [id, name] : score.classes) {
     if (id != evaluation::kUnlabeled) iou[name] = measure(score.iou(id));
   }
-  json confusion = json::object();
+  Json confusion = Json::object();
   for (const auto& [pair, count] : score.confusion) {
     confusion[nameOf(score.classes, pair.first)][nameOf(score.classes, pair.second)] = count;
   }
@@ -182,10 +182,10 @@ evaluation::PlaneScore scorePlanesOf(const MapView& view, const Truth& truth, co
   return evaluation::scorePlanes(evaluation::planesOf(view, truth), truth);
 }
 
-json planesToJson(const evaluation::PlaneScore& score, const EvaluateOptions& /*options*/) {
+Json planesToJson(const evaluation::PlaneScore& score, const EvaluateOptions& /*options*/) {
   const bool any = score.truth > 0;
   const auto countsToJson = [&](const evaluation::PlaneCounts& counts) {
-    return json{{"threshold", counts.threshold},
+    return Json{{"threshold", counts.threshold},
                 {"correct", countIf(any, counts.correct)},
                 {"over_segmented", countIf(any, counts.over)},
                 {"under_segmented", countIf(any, counts.under)},
@@ -194,12 +194,12 @@ json planesToJson(const evaluation::PlaneScore& score, const EvaluateOptions& /*
   };
   const double reported = evaluation::PlaneOptions{}.reported;
   const auto* counts = score.at(reported);
-  json report = {{"truth", score.truth}, {"mapped", score.mapped}};
+  Json report = {{"truth", score.truth}, {"mapped", score.mapped}};
   report.update(countsToJson(counts == nullptr ? evaluation::PlaneCounts{.threshold = reported} : *counts));
   report["correct_share"] = measure(evaluation::shareOf(counts == nullptr ? 0 : counts->correct, score.truth));
   report["angle_deg"] = errorsOf(score.angleErrors, kDegreesPerRadian);
   report["offset_m"] = errorsOf(score.offsetErrors);
-  report["curve"] = json::array();
+  report["curve"] = Json::array();
   for (const auto& at : score.curve) report["curve"].push_back(countsToJson(at));
   return report;
 }
@@ -222,8 +222,8 @@ evaluation::ObjectScore scoreObjectsOf(const MapView& view, const Truth& truth, 
   return evaluation::scoreObjects(evaluation::objectsOf(view, truth), truth);
 }
 
-json objectsToJson(const evaluation::ObjectScore& score, const EvaluateOptions& /*options*/) {
-  json byClass = json::object();
+Json objectsToJson(const evaluation::ObjectScore& score, const EvaluateOptions& /*options*/) {
+  Json byClass = Json::object();
   for (const auto& [name, counts] : score.byClass) {
     byClass[name.empty() ? "unknown" : name] = {{"truth", counts.truth},
                                                 {"mapped", counts.mapped},
@@ -262,7 +262,7 @@ evaluation::HumanScore scoreHumansOf(const MapView& view, const Truth& truth, co
                                  {.leastPixels = options.leastPixels, .range = options.range});
 }
 
-json humansToJson(const evaluation::HumanScore& score, const EvaluateOptions& options) {
+Json humansToJson(const evaluation::HumanScore& score, const EvaluateOptions& options) {
   const bool any = score.seen > 0;
   return {{"frames", score.frames},
           {"seen", score.seen},

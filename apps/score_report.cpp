@@ -18,7 +18,7 @@ namespace prodomos::apps {
 namespace {
 
 using evaluation::ScoreTable;
-using json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
 
 constexpr const char* kNone = "–";
 constexpr const char* kBuildings = "buildings";
@@ -38,18 +38,18 @@ std::string nameOf(std::string key) {
   return key;
 }
 
-bool isStatistics(const json& value) {
+bool isStatistics(const Json& value) {
   return value.is_object() && value.contains("median") && value.contains("rmse");
 }
 
 /// Things of one kind by their names, or a list of them: they are a table.
-bool isTable(const json& value) {
+bool isTable(const Json& value) {
   if (value.is_array()) return !value.empty() && value.front().is_object();
   if (!value.is_object() || value.empty() || isStatistics(value)) return false;
-  return std::ranges::all_of(value, [](const json& row) { return row.is_object() && !isStatistics(row); });
+  return std::ranges::all_of(value, [](const Json& row) { return row.is_object() && !isStatistics(row); });
 }
 
-std::string shown(const json& value) {
+std::string shown(const Json& value) {
   if (value.is_null()) return kNone;
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_number_integer()) return grouped(value.get<std::int64_t>());
@@ -64,11 +64,11 @@ std::string shown(const json& value) {
 
 /// Where a measure stands in a report, and its name.
 struct Row {
-  json::json_pointer place;
+  Json::json_pointer place;
   std::string name;
 };
 
-void collectRows(const json& value, const json::json_pointer& place, const std::string& name, std::vector<Row>& rows) {
+void collectRows(const Json& value, const Json::json_pointer& place, const std::string& name, std::vector<Row>& rows) {
   for (const auto& [key, part] : value.items()) {
     if (key == kBuildings || key == "building" || key == "map" || key == "worst" || isTable(part)) continue;
     const auto named = name.empty() ? nameOf(key) : name + " · " + nameOf(key);
@@ -80,20 +80,20 @@ void collectRows(const json& value, const json::json_pointer& place, const std::
   }
 }
 
-json at(const json& report, const json::json_pointer& place) {
-  return report.contains(place) ? report.at(place) : json();
+Json at(const Json& report, const Json::json_pointer& place) {
+  return report.contains(place) ? report.at(place) : Json();
 }
 
-ScoreTable measuresOf(const json& report) {
+ScoreTable measuresOf(const Json& report) {
   ScoreTable table{
       .title = "Measures", .text = "– where a measure cannot be taken", .columns = {"", "all"}, .rows = {}};
-  const auto& buildings = report.contains(kBuildings) ? report[kBuildings] : json::array();
+  const auto& buildings = report.contains(kBuildings) ? report[kBuildings] : Json::array();
   const bool several = buildings.size() > 1;
   if (several) {
     for (const auto& building : buildings) table.columns.push_back(shown(building["building"]));
   }
   std::vector<Row> rows;
-  collectRows(report, json::json_pointer(), "", rows);
+  collectRows(report, Json::json_pointer(), "", rows);
   for (const auto& row : rows) {
     std::vector<std::string> cells = {row.name, shown(at(report, row.place))};
     if (several) {
@@ -105,7 +105,7 @@ ScoreTable measuresOf(const json& report) {
 }
 
 /// A list of objects, or an object of them by names.
-ScoreTable tableOf(const std::string& title, const json& value) {
+ScoreTable tableOf(const std::string& title, const Json& value) {
   ScoreTable table{.title = title, .columns = {}, .rows = {}};
   std::vector<std::string> keys;
   for (const auto& row : value) {
@@ -124,7 +124,7 @@ ScoreTable tableOf(const std::string& title, const json& value) {
   return table;
 }
 
-void collectTables(const json& value, const std::string& name, std::vector<ScoreTable>& tables) {
+void collectTables(const Json& value, const std::string& name, std::vector<ScoreTable>& tables) {
   for (const auto& [key, part] : value.items()) {
     if (key == kBuildings) continue;
     const auto named = name.empty() ? nameOf(key) : name + " · " + nameOf(key);
@@ -161,23 +161,23 @@ void print(const ScoreTable& table, std::size_t mostColumns) {
 
 }  // namespace
 
-json measure(std::optional<double> value) {
-  return value ? json(*value) : json(nullptr);
+Json measure(std::optional<double> value) {
+  return value ? Json(*value) : Json(nullptr);
 }
 
-json errorsOf(std::vector<double> errors, double unit) {
+Json errorsOf(std::vector<double> errors, double unit) {
   if (errors.empty()) return nullptr;
   for (double& error : errors) error *= unit;
   return toJson(evaluation::statisticsOf(std::move(errors)));
 }
 
-std::vector<ScoreTable> tablesOf(const json& report) {
+std::vector<ScoreTable> tablesOf(const Json& report) {
   std::vector<ScoreTable> tables = {measuresOf(report)};
   collectTables(report, "", tables);
   return tables;
 }
 
-void printReport(const std::string& title, const json& report) {
+void printReport(const std::string& title, const Json& report) {
   constexpr std::size_t kMostColumns = 8;
   std::cout << title << '\n';
   bool first = true;
@@ -190,7 +190,7 @@ void printReport(const std::string& title, const json& report) {
   }
 }
 
-void writeReportPage(const std::string& path, const std::string& title, const json& report,
+void writeReportPage(const std::string& path, const std::string& title, const Json& report,
                      std::vector<evaluation::ScorePicture> pictures, const std::vector<MapAndTruth>& maps) {
   evaluation::ScorePage page{.title = title, .tables = tablesOf(report), .pictures = std::move(pictures)};
   for (const auto& [map, truthFile] : maps) {
