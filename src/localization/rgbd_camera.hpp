@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "prodomos/sensors/lens.hpp"
 #include "prodomos/sensors/reading.hpp"
 
 #include <Eigen/Core>
@@ -23,13 +24,8 @@ class Camera {
   bool operator==(const Camera&) const = default;
 
   Eigen::Vector2d pixel(const Eigen::Vector2d& ray) const {
-    const auto& [k1, k2, p1, p2, k3] = intrinsics_.distortion;
-    const double x = ray.x();
-    const double y = ray.y();
-    const double r2 = x * x + y * y;
-    const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
-    return {intrinsics_.fx * (x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x)) + intrinsics_.cx,
-            intrinsics_.fy * (y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y) + intrinsics_.cy};
+    const Eigen::Vector2d seen = sensors::distorted(intrinsics_.distortion, ray);
+    return {intrinsics_.fx * seen.x() + intrinsics_.cx, intrinsics_.fy * seen.y() + intrinsics_.cy};
   }
 
   /// Fixed-point iteration, as OpenCV's undistortPoints.
