@@ -4,13 +4,15 @@
 
 #include "prodomos/geometry/plane.hpp"
 #include "prodomos/geometry/pose.hpp"
-
-#include "localization/rgbd_depth.hpp"
+#include "prodomos/sensors/depth_grid.hpp"
 
 #include <optional>
 #include <span>
 
 namespace prodomos::localization::rgbd {
+
+using sensors::DepthGrid;
+using sensors::depthSigma;
 
 /// A depth grid with normals, and where it was taken.
 struct PosedDepth {

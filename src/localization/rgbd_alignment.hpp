@@ -5,8 +5,8 @@
 #include "prodomos/base/random.hpp"
 #include "prodomos/geometry/plane.hpp"
 #include "prodomos/map/topological_graph.hpp"
+#include "prodomos/sensors/depth_grid.hpp"
 
-#include "localization/rgbd_depth.hpp"
 #include "localization/rgbd_features.hpp"
 
 #include <optional>
@@ -14,6 +14,9 @@
 #include <vector>
 
 namespace prodomos::localization::rgbd {
+
+using sensors::DepthGrid;
+using sensors::depthSigma;
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "localization/rgbd_camera.hpp"
+#include "prodomos/sensors/camera.hpp"
 
 #include <array>
 #include <cstdint>
@@ -10,6 +10,8 @@
 #include <vector>
 
 namespace prodomos::localization::rgbd {
+
+using sensors::Camera;
 
 /// A corner of the image with its descriptor, and how far away it is.
 struct KeyPoint {

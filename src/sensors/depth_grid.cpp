@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the prodomos authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "localization/rgbd_depth.hpp"
+#include "prodomos/sensors/depth_grid.hpp"
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
 
-namespace prodomos::localization::rgbd {
+namespace prodomos::sensors {
 
 namespace {
 
@@ -17,8 +17,8 @@ constexpr int kMostPixels = 20000;
 
 }  // namespace
 
-DepthGrid::DepthGrid(const Camera& camera, const sensors::Image<float>& depth, const sensors::Mask* movers,
-                     double maxDepth, const DepthGrid* earlier) {
+DepthGrid::DepthGrid(const Camera& camera, const Image<float>& depth, const Mask* movers, double maxDepth,
+                     const DepthGrid* earlier) {
   resize(camera, earlier);
   const auto most = static_cast<float>(maxDepth);
   const auto usable = [most](float z) { return z > 0.0F && z < most; };  // false for NaN
@@ -130,7 +130,7 @@ void DepthGrid::save(base::ByteWriter& out) const {
 }
 
 void DepthGrid::load(base::ByteReader& in) {
-  sensors::CameraIntrinsics intrinsics;
+  CameraIntrinsics intrinsics;
   in >> intrinsics.fx >> intrinsics.fy >> intrinsics.cx >> intrinsics.cy;
   for (double& k : intrinsics.distortion) in >> k;
   const int width = in.read<int>();
@@ -154,4 +154,4 @@ void DepthGrid::load(base::ByteReader& in) {
   computeNormals();
 }
 
-}  // namespace prodomos::localization::rgbd
+}  // namespace prodomos::sensors

@@ -3,13 +3,12 @@
 #pragma once
 
 #include "prodomos/base/bytes.hpp"
-
-#include "localization/rgbd_camera.hpp"
+#include "prodomos/sensors/camera.hpp"
 
 #include <optional>
 #include <vector>
 
-namespace prodomos::localization::rgbd {
+namespace prodomos::sensors {
 
 /// A depth image thinned to one value for each block of pixels: the mean of what lies near the block's centre in
 /// depth. 0: not known.
@@ -26,7 +25,7 @@ class DepthGrid {
   DepthGrid() = default;
   /// Takes `movers` as not known, and so what lies further than `maxDepth` metres. `earlier`: a grid whose rays are
   /// taken over where its camera is the same; may be null.
-  DepthGrid(const Camera& camera, const sensors::Image<float>& depth, const sensors::Mask* movers, double maxDepth,
+  DepthGrid(const Camera& camera, const Image<float>& depth, const Mask* movers, double maxDepth,
             const DepthGrid* earlier);
 
   const Camera& camera() const { return camera_; }
@@ -65,4 +64,4 @@ inline Eigen::Vector3d normalOf(const DepthGrid::Cell& cell) {
   return {static_cast<double>(cell.normalX), static_cast<double>(cell.normalY), static_cast<double>(cell.normalZ)};
 }
 
-}  // namespace prodomos::localization::rgbd
+}  // namespace prodomos::sensors

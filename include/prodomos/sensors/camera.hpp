@@ -7,16 +7,16 @@
 
 #include <Eigen/Core>
 
-namespace prodomos::localization::rgbd {
+namespace prodomos::sensors {
 
 /// A pinhole camera with distortion; a `ray` is a point of the plane one metre ahead of it.
 class Camera {
  public:
   Camera() = default;
-  Camera(const sensors::CameraIntrinsics& intrinsics, int width, int height)
+  Camera(const CameraIntrinsics& intrinsics, int width, int height)
       : intrinsics_(intrinsics), width_(width), height_(height) {}
 
-  const sensors::CameraIntrinsics& intrinsics() const { return intrinsics_; }
+  const CameraIntrinsics& intrinsics() const { return intrinsics_; }
   int width() const { return width_; }
   int height() const { return height_; }
   /// Pixels a radian at the centre.
@@ -24,7 +24,7 @@ class Camera {
   bool operator==(const Camera&) const = default;
 
   Eigen::Vector2d pixel(const Eigen::Vector2d& ray) const {
-    const Eigen::Vector2d seen = sensors::distorted(intrinsics_.distortion, ray);
+    const Eigen::Vector2d seen = distorted(intrinsics_.distortion, ray);
     return {intrinsics_.fx * seen.x() + intrinsics_.cx, intrinsics_.fy * seen.y() + intrinsics_.cy};
   }
 
@@ -43,7 +43,7 @@ class Camera {
   }
 
  private:
-  sensors::CameraIntrinsics intrinsics_;
+  CameraIntrinsics intrinsics_;
   int width_ = 0;
   int height_ = 0;
 };
@@ -54,4 +54,4 @@ inline double depthSigma(double depth) {
   return 0.0012 + 0.0019 * beyond * beyond;
 }
 
-}  // namespace prodomos::localization::rgbd
+}  // namespace prodomos::sensors
