@@ -87,6 +87,20 @@ class ChangeWriter {
     }
   }
 
+  void remove(const std::vector<base::EntityId>& entities) {
+    auto edge = database_.prepare("UPDATE edge SET entity = NULL, revision = ? WHERE entity = ?");
+    auto row = database_.prepare("DELETE FROM entity WHERE id = ? AND id NOT IN (SELECT entity FROM prediction)");
+    auto bet = database_.prepare("UPDATE entity SET confidence = 0, revision = ? WHERE id = ?");
+    for (const auto id : entities) {
+      edge << revision_ << id;
+      edge.run();
+      row << id;
+      row.run();
+      bet << revision_ << id;
+      bet.run();
+    }
+  }
+
   void write(const std::vector<Prediction>& predictions) {
     auto row = database_.prepare(upsertion("prediction", "id",
                                            "entity, node, probability, expected_area, areas, made_ns, state, "
@@ -253,6 +267,7 @@ std::int64_t MapStore::commit(const MapChange& change) {
   writer.write(change.edges);
   writer.remove(change.removedEdges);
   writer.write(change.predictions);
+  writer.remove(change.removedEntities);
   writer.write(change.trajectory);
   writer.write(change.events);
   writer.write(change.tracks);

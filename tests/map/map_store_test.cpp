@@ -435,6 +435,43 @@ TEST_F(MapFile, ForgetsEdgesThatWereGivenUp) {
   EXPECT_EQ(store.view().graph().getNode({3}).place, 1) << "nothing leads there any more";
 }
 
+TEST_F(MapFile, ForgetsEntitiesThatWereGivenUp) {
+  auto store = MapStore::create(path_);
+  auto change = twoNodes();
+  change.entities = {entityOf(1, 1), entityOf(2, 1)};
+  change.edges.push_back(edgeOf(2, 1, 2, EdgeKind::kDoor));
+  change.edges.back().cause = base::EntityId{1};
+  const auto before = store.commit(change);
+  MapChange later;
+  later.removedEntities = {{1}, {77}};
+  store.commit(later);
+  const auto view = store.view();
+  EXPECT_THAT(view.entities(), ElementsAre(testing::Field(&Entity::id, base::EntityId{2})));
+  EXPECT_EQ(view.graph().getEdge({2}).cause, std::nullopt) << "the way is still there";
+  const auto changes = view.changesSince(before);
+  EXPECT_THAT(changes.edges, ElementsAre(base::EdgeId{2}));
+  EXPECT_THAT(changes.entities, IsEmpty());
+}
+
+TEST_F(MapFile, KeepsWhatAPredictionBetsOn) {
+  auto store = MapStore::create(path_);
+  auto change = twoNodes();
+  change.entities = {entityOf(1, 1)};
+  Prediction bet;
+  bet.id = {1};
+  bet.cause = {1};
+  bet.node = {2};
+  change.predictions = {bet};
+  store.commit(change);
+  MapChange later;
+  later.removedEntities = {{1}};
+  store.commit(later);
+  const auto view = store.view();
+  ASSERT_EQ(view.entities().size(), 1U);
+  EXPECT_EQ(view.entities()[0].confidence, 0.0);
+  EXPECT_EQ(view.predictions().size(), 1U);
+}
+
 TEST_F(MapFile, IsTheSameInMemory) {
   auto store = MapStore::inMemory();
   store.commit(twoNodes());

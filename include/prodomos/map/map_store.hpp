@@ -32,6 +32,9 @@ struct MapChange {
   std::vector<std::pair<base::SubMapId, const MapLayer*>> layers;
   std::optional<Checkpoint> checkpoint;
   std::vector<Track> tracks{};  ///< their states are added to those that are there; of one time, replaced
+  /// Doors and stairs that were refuted, or turned out to be others seen before. Edges through them lose their cause;
+  /// one that a prediction bets on stays for the ledger's sake, with confidence 0.
+  std::vector<base::EntityId> removedEntities{};
 };
 
 /// The map file: SQLite in WAL mode, documented in docs/map-file.md. One store writes at a time; any number of MapViews
