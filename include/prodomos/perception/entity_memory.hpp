@@ -16,12 +16,30 @@
 
 namespace prodomos::perception {
 
-struct EntityMemoryConfig {};
+struct EntityMemoryConfig {
+  double certainty = 2.0;          ///< log-odds from which on a thing is written to the map
+  double doubt = 0.0;              ///< log-odds below which it is given up again
+  double prior = -1.0;             ///< log-odds before anything was seen
+  double correlation = 0.5;        ///< of the errors of two readings taken from one place, 0 … 1
+  double lookSpacing = 0.3;        ///< metres that the robot moves until a reading counts as a new look
+  double positionFloor = 0.05;     ///< metres; no sighting is believed to be better placed
+  double headingFloor = 0.03;      ///< radians, likewise
+  double submapPosition = 0.1;     ///< metres, of one sub-map against another
+  double submapHeading = 0.02;     ///< radians, likewise
+  double doorMiss = 0.7;           ///< log-odds lost where a door should be well seen and is not found
+  double stairsMiss = 0.7;         ///< the same of stairs
+  double stateTrust = 0.75;        ///< that one reading tells the state of a door rightly
+  double stateMemory = 30.0;       ///< seconds in which the state of a door that nobody sees is forgotten
+  double forgetting = 120.0;       ///< seconds after which what was never sure is forgotten
+  double leastDoorWidth = 0.5;     ///< metres
+  double greatestDoorWidth = 3.2;  ///< metres
+};
 
 void describe(base::ConfigVisitor& visitor, EntityMemoryConfig& config);
 
 /// Makes lasting doors and staircases of sightings: the same one seen in many readings and from several sub-maps is one
-/// entity, whose confidence grows, whose pose is refined with its covariance, and whose state changes over time.
+/// entity, whose confidence grows, whose pose is refined with its covariance, and whose state changes over time
+/// (docs/entities.md). Of each reading: first add(), of all its sightings, then look().
 class EntityMemory {
  public:
   /// T_map_submap as refined now, to compare what was seen from different sub-maps.
@@ -33,17 +51,22 @@ class EntityMemory {
   EntityMemory(EntityMemory&&) noexcept;
   EntityMemory& operator=(EntityMemory&&) noexcept;
 
-  /// Sightings of one reading, in the frame of `submap`.
-  void add(base::SubMapId submap, std::span<const DoorSighting> doors, const SubMapPoses& poses);
-  void add(base::SubMapId submap, std::span<const StaircaseSighting> stairs, const SubMapPoses& poses);
+  /// Sightings of one image, in the frame of `submap`. Those that cannot be (5 m wide, NaN, no covariance) are passed
+  /// over. Where the sensor stood tells how much one sighting adds to the last.
+  void add(base::SubMapId submap, const geometry::Pose3& T_submap_sensor, std::span<const DoorSighting> doors,
+           const SubMapPoses& poses);
+  void add(base::SubMapId submap, const geometry::Pose3& T_submap_sensor, std::span<const StaircaseSighting> stairs,
+           const SubMapPoses& poses);
+  /// All doorways that the grid of `submap` shows now. One that it showed before and no longer does counts against it.
+  void addFromGrid(base::SubMapId submap, std::span<const DoorSighting> doorways, const SubMapPoses& poses);
   /// A look at the places where doors and stairs are believed: where it shows something else, that speaks against them
-  /// (plain wall, free floor) or tells their state (one sees through).
+  /// (no wall, free floor, nothing found from near by) or tells their state (one sees through).
   void look(base::SubMapId submap, const RgbdView& view, const Surfaces& surfaces, const SubMapPoses& poses);
 
   /// Those sure enough, by id, as known now; each in the frame of the sub-map in which it was seen best.
   std::vector<map::Entity> entities() const;
-  /// Entities that changed since the last call, and events: "detected" (once for each reading in which one was seen;
-  /// subject its id), "door_state" with its new state in the payload.
+  /// Since the last call: entities that changed, those that were given up, and events: "detected" (once for each
+  /// reading in which one was seen; subject its id), "door_state" with its new state in the payload, "entity_removed".
   void addTo(map::MapChange& change);
 
   void save(base::ByteWriter& out) const;
