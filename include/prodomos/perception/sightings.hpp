@@ -52,7 +52,11 @@ struct StaircaseSighting {
   bool footIsSeen = false;    ///< the lowest step meets the floor that the robot is on
   bool headIsSeen = false;    ///< the landing at the top was seen
   bool descends = false;      ///< leads down from the robot's floor
-  double evidence = 0.0;      ///< log-odds that this is a staircase, as this reading alone tells
+  /// Height of the floor or landing that the flight leads to, in the sub-map: seen, else told by the ceiling, else
+  /// guessed from the steps that were seen; the sigma says how sure. Sigma 0: nothing is said.
+  double newFloor_z = 0.0;
+  double newFloorSigma = 0.0;  ///< metres
+  double evidence = 0.0;       ///< log-odds that this is a staircase, as this reading alone tells
   std::vector<Eigen::Vector3f> points_in_submap;
 };
 
