@@ -12,6 +12,12 @@ namespace prodomos::perception {
 
 struct DoorwayDetectorConfig {
   bool enabled = true;
+  double leastWidth = 0.6;     ///< metres between the jambs
+  double mostWidth = 2.6;      ///< metres; wider gaps are parts of one room
+  double mostThickness = 0.4;  ///< metres, of the wall; deeper ones are corridors
+  double leastWall = 0.5;      ///< metres of wall beside each jamb; less is furniture, a pillar or a person
+  double leastSpace = 0.6;     ///< metres of free floor before and behind; less is a niche or a cupboard
+  double leastDetour = 3.0;    ///< metres; what one can go around on a shorter way is a gap between furniture
 };
 
 void describe(base::ConfigVisitor& visitor, DoorwayDetectorConfig& config);

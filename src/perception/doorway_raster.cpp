@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/doorway_raster.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace prodomos::perception::doorways {
+
+using map::CellState;
+
+namespace {
+
+constexpr double kQuarter = 0.5 * std::numbers::pi;
+constexpr int kLeastWallCells = 30;       // a direction that explains fewer cells is chance
+constexpr double kLeastWallLength = 0.5;  // metres
+
+using Points = std::vector<Eigen::Vector2d>;
+
+Points occupiedCells(const map::OccupancyGrid& grid) {
+  Points points;
+  const auto box = grid.knownBox();
+  for (int y = box.first.y; y <= box.last.y; ++y) {
+    for (int x = box.first.x; x <= box.last.x; ++x) {
+      if (grid.state({x, y}) != CellState::kOccupied) continue;
+      points.emplace_back(geometry::cellCentre(x, grid.resolution()), geometry::cellCentre(y, grid.resolution()));
+    }
+  }
+  return points;
+}
+
+/// Counts of points in parallel strips, summed as squares: the more, the better points lie in lines of that direction.
+class Strips {
+ public:
+  Strips(const Points& points, double width) : points_(points), width_(width) {
+    double reach = 0.0;
+    for (const auto& point : points) reach = std::max(reach, point.norm());
+    half_ = static_cast<int>(reach / width) + 1;
+  }
+
+  double concentration(double direction) {
+    return sumOfSquares(-std::sin(direction), std::cos(direction)) +
+           sumOfSquares(std::cos(direction), std::sin(direction));
+  }
+
+ private:
+  double sumOfSquares(double x, double y) {
+    counts_.assign(static_cast<std::size_t>(2 * half_ + 1), 0);
+    for (const auto& point : points_) {
+      const double offset = (point.x() * x + point.y() * y) / width_ + half_ + 0.5;
+      ++counts_[static_cast<std::size_t>(offset)];
+    }
+    double sum = 0.0;
+    for (const int count : counts_) sum += static_cast<double>(count) * count;
+    return sum;
+  }
+
+  const Points& points_;
+  double width_;
+  int half_ = 0;
+  std::vector<int> counts_;
+};
+
+double sharpest(Strips& strips, double first, double step, int count) {
+  double best = first;
+  double most = -1.0;
+  for (int i = 0; i < count; ++i) {
+    const double direction = first + step * i;
+    const double concentration = strips.concentration(direction);
+    if (concentration <= most) continue;
+    most = concentration;
+    best = direction;
+  }
+  return best;
+}
+
+double mainDirection(const Points& points, double resolution) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  Strips coarse(points, 2.0 * resolution);
+  const double rough = sharpest(coarse, 0.0, 2.0 * kDegree, 45);
+  Strips fine(points, resolution);
+  const double best = sharpest(fine, rough - 2.0 * kDegree, 0.25 * kDegree, 17);
+  return best - kQuarter * std::floor(best / kQuarter);
+}
+
+/// Whether a cell is one of a wall along the raster's rows (or its columns).
+bool isInWall(const Raster& raster, const Eigen::Vector2d& cell, bool alongRows) {
+  const int u = static_cast<int>(std::lround(cell.x()));
+  const int v = static_cast<int>(std::lround(cell.y()));
+  const auto isWall = [&](int i) {
+    for (int side = -1; side <= 1; ++side) {
+      if (alongRows ? raster.isOccupied(u + i, v + side) : raster.isOccupied(u + side, v + i)) return true;
+    }
+    return false;
+  };
+  const int needed = static_cast<int>(std::ceil(kLeastWallLength / raster.step()));
+  int length = 1;
+  for (int i = 1; isWall(i) && length < needed; ++i) ++length;
+  for (int i = -1; isWall(i) && length < needed; --i) ++length;
+  return length >= needed;
+}
+
+}  // namespace
+
+std::vector<double> wallDirections(const map::OccupancyGrid& grid, std::size_t most) {
+  std::vector<double> directions;
+  Points left = occupiedCells(grid);
+  while (directions.size() < most && static_cast<int>(left.size()) >= kLeastWallCells) {
+    const double direction = mainDirection(left, grid.resolution());
+    const Raster raster(grid, direction);
+    const auto before = left.size();
+    std::erase_if(left, [&](const Eigen::Vector2d& point) {
+      const Eigen::Vector2d cell = raster.inRaster(point);
+      return isInWall(raster, cell, true) || isInWall(raster, cell, false);
+    });
+    if (before - left.size() < kLeastWallCells) break;
+    directions.push_back(direction);
+  }
+  return directions;
+}
+
+Raster::Raster(const map::OccupancyGrid& grid, double direction)
+    : direction_(direction),
+      step_(grid.resolution()),
+      along_(std::cos(direction), std::sin(direction)),
+      across_(-std::sin(direction), std::cos(direction)) {
+  const auto box = grid.knownBox();
+  if (box.empty()) return;
+  Eigen::Array2d least = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Array2d most = -least;
+  for (const int x : {box.first.x, box.last.x}) {
+    for (const int y : {box.first.y, box.last.y}) {
+      const Eigen::Vector2d corner(geometry::cellCentre(x, step_), geometry::cellCentre(y, step_));
+      const Eigen::Array2d turned(corner.dot(along_), corner.dot(across_));
+      least = least.min(turned);
+      most = most.max(turned);
+    }
+  }
+  origin_ = least.x() * along_ + least.y() * across_;
+  width_ = static_cast<int>((most.x() - least.x()) / step_) + 2;
+  height_ = static_cast<int>((most.y() - least.y()) / step_) + 2;
+  states_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  for (int v = 0; v < height_; ++v) {
+    for (int u = 0; u < width_; ++u) states_[index(u, v)] = grid.state(grid.cellAt(inSubmap(u, v)));
+  }
+}
+
+}  // namespace prodomos::perception::doorways

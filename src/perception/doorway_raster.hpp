@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "prodomos/map/occupancy_grid.hpp"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace prodomos::perception::doorways {
+
+/// Directions of the walls of a grid: at most `most` angles in [0, pi/2), those of the longest walls first; walls
+/// stand along each and across it.
+std::vector<double> wallDirections(const map::OccupancyGrid& grid, std::size_t most);
+
+/// A grid turned so that walls of one direction lie along its rows. Cells are named (u, v), u along the wall; what lies
+/// outside is unknown.
+class Raster {
+ public:
+  Raster(const map::OccupancyGrid& grid, double direction);
+
+  double direction() const { return direction_; }
+  double step() const { return step_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+  map::CellState at(int u, int v) const {
+    if (u < 0 || v < 0 || u >= width_ || v >= height_) return map::CellState::kUnknown;
+    return states_[index(u, v)];
+  }
+  bool isOccupied(int u, int v) const { return at(u, v) == map::CellState::kOccupied; }
+  bool isFree(int u, int v) const { return at(u, v) == map::CellState::kFree; }
+
+  /// Whole numbers are middles of cells.
+  Eigen::Vector2d inSubmap(double u, double v) const { return origin_ + step_ * (u * along_ + v * across_); }
+  /// (u, v) of a point.
+  Eigen::Vector2d inRaster(const Eigen::Vector2d& point_in_submap) const {
+    const Eigen::Vector2d offset = (point_in_submap - origin_) / step_;
+    return {offset.dot(along_), offset.dot(across_)};
+  }
+
+ private:
+  std::size_t index(int u, int v) const {
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u);
+  }
+
+  double direction_;
+  double step_;
+  Eigen::Vector2d along_, across_, origin_ = Eigen::Vector2d::Zero();
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<map::CellState> states_;
+};
+
+}  // namespace prodomos::perception::doorways
