@@ -45,8 +45,10 @@ class EntityMemory {
   /// T_map_submap as refined now, to compare what was seen from different sub-maps.
   using SubMapPoses = std::function<geometry::Pose3(base::SubMapId)>;
 
-  /// Ids of new entities count from `firstId`.
-  EntityMemory(const EntityMemoryConfig& config, base::SessionId session, std::int64_t firstId);
+  /// An id that no entity has had yet; asked for when a thing has become sure enough for the map.
+  using NewId = std::function<base::EntityId()>;
+
+  EntityMemory(const EntityMemoryConfig& config, base::SessionId session, NewId newId);
   ~EntityMemory();
   EntityMemory(EntityMemory&&) noexcept;
   EntityMemory& operator=(EntityMemory&&) noexcept;
