@@ -357,8 +357,9 @@ Surfaces findSurfaces(const RgbdView& view, const SurfacesConfig& config) {
   surfaces.depth = sensors::DepthGrid(camera, depth, moversFit ? view.movers : nullptr, config.maxDepth, nullptr);
   surfaces.depth.computeNormals();
 
+  surfaces.voxels = voxelFilter(surfaces.depth, config.voxel);
   Cloud cloud;
-  for (const std::uint32_t i : voxelFilter(surfaces.depth, config.voxel)) {
+  for (const std::uint32_t i : surfaces.voxels) {
     const int width = surfaces.depth.width();
     const Cell& cell = surfaces.depth.at(static_cast<int>(i) % width, static_cast<int>(i) / width);
     const float side = static_cast<float>(config.voxel);

@@ -34,9 +34,10 @@ struct PlanarPatch {
 
 /// What one view shows of planes: shared by all detectors, so that it is found once a frame.
 struct Surfaces {
-  sensors::DepthGrid depth;          ///< with normals, in the camera
-  std::vector<PlanarPatch> patches;  ///< by area, the greatest first
-  double floor_z = 0.0;              ///< in the sub-map: as this view shows the floor, else the view's own
+  sensors::DepthGrid depth;           ///< with normals, in the camera
+  std::vector<PlanarPatch> patches;   ///< by area, the greatest first
+  std::vector<std::uint32_t> voxels;  ///< cells of the depth grid with a normal, one a voxel; ascending
+  double floor_z = 0.0;               ///< in the sub-map: as this view shows the floor, else the view's own
   bool floorIsSeen = false;
 };
 
