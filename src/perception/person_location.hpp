@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "prodomos/perception/person_sighting.hpp"
+
+#include "perception/people_networks.hpp"
+#include "perception/upright_view.hpp"
+
+#include <optional>
+
+namespace prodomos::perception {
+
+/// A person in an upright picture.
+struct PicturedPerson {
+  PersonBox box;
+  std::optional<ImageJoints> joints;
+  const cv::Mat* mask = nullptr;  ///< non-zero where the person is, as large as the picture; null: not known
+};
+
+/// Where that person stands, and which way it looks: position, heading, joints, clothes. None where depth tells of
+/// none, of something flat as a picture on a wall, or of something that is no human's size.
+std::optional<PersonSighting> locate(const UprightView& view, const PicturedPerson& person, double floor_z);
+
+}  // namespace prodomos::perception
