@@ -1,0 +1,409 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/door_candidates.hpp"
+
+#include "prodomos/sensors/camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace prodomos::perception {
+
+namespace {
+
+constexpr double kLeastWidth = 0.55;
+constexpr double kMostWidth = 2.3;
+constexpr double kWidestLeaf = 1.35;
+constexpr double kUsualHeight = 2.0;
+constexpr double kFrame = 0.1;  // metres, more than boards of frames are wide
+
+double median(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return static_cast<double>(*middle);
+}
+
+struct Box {
+  int first = 0, last = 0;  ///< columns
+  int top = 0, bottom = 0;  ///< rows
+
+  bool empty() const { return last <= first || bottom <= top; }
+};
+
+Box clipped(Box box, const RectifiedWall& wall) {
+  box.first = std::clamp(box.first, 0, wall.width());
+  box.last = std::clamp(box.last, 0, wall.width());
+  box.top = std::clamp(box.top, 0, wall.height());
+  box.bottom = std::clamp(box.bottom, 0, wall.height());
+  return box;
+}
+
+bool isVisible(Seen seen) {
+  return seen == Seen::kWall || seen == Seen::kColor;
+}
+
+/// The columns of metres.
+int columns(double metres) {
+  return static_cast<int>(std::lround(metres / RectifiedWall::kPixel));
+}
+
+/// Known offsets in a box, one a block.
+std::vector<float> offsetsIn(const RectifiedWall& wall, const Box& unclipped) {
+  std::vector<float> offsets;
+  const Box box = clipped(unclipped, wall);
+  for (int row = box.top; row < box.bottom; row += RectifiedWall::kBlock) {
+    for (int column = box.first; column < box.last; column += RectifiedWall::kBlock) {
+      const float offset = wall.offset(column, row);
+      if (!std::isnan(offset)) offsets.push_back(offset);
+    }
+  }
+  return offsets;
+}
+
+struct Color {
+  double r = 0.0, g = 0.0, b = 0.0;
+};
+double difference(const Color& a, const Color& b) {
+  return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+}
+
+/// Colours of visible pixels of a box, every `step`th.
+std::vector<cv::Vec3b> colorsIn(const RectifiedWall& wall, const Box& unclipped, int step) {
+  std::vector<cv::Vec3b> colors;
+  const Box box = clipped(unclipped, wall);
+  for (int row = box.top; row < box.bottom; row += step) {
+    const auto* pixel = wall.color().ptr<cv::Vec3b>(row);
+    for (int column = box.first; column < box.last; column += step) {
+      if (isVisible(wall.seen(column, row))) colors.push_back(pixel[column]);
+    }
+  }
+  return colors;
+}
+
+std::optional<Color> medianColor(const std::vector<cv::Vec3b>& colors, std::size_t least) {
+  if (colors.size() < least) return std::nullopt;
+  std::array<double, 3> medians{};
+  std::vector<float> channel(colors.size());
+  for (int i = 0; i < 3; ++i) {
+    std::ranges::transform(colors, channel.begin(), [i](const cv::Vec3b& color) { return static_cast<float>(color[i]); });
+    medians[static_cast<std::size_t>(i)] = median(channel);
+  }
+  return Color{medians[0], medians[1], medians[2]};
+}
+
+double shareLike(const std::vector<cv::Vec3b>& colors, const Color& color) {
+  constexpr double kAlike = 26.0;
+  if (colors.empty()) return 0.0;
+  const auto alike = std::ranges::count_if(colors, [&](const cv::Vec3b& pixel) {
+    return difference({static_cast<double>(pixel[0]), static_cast<double>(pixel[1]), static_cast<double>(pixel[2])},
+                      color) < kAlike;
+  });
+  return static_cast<double>(alike) / static_cast<double>(colors.size());
+}
+
+/// A pair of lines being looked at: cue by cue.
+class Examination {
+ public:
+  Examination(const RectifiedWall& wall, const WallEdges& edges, const UprightLine& left, const UprightLine& right)
+      : wall_(wall), edges_(edges) {
+    found_.leftLine = left;
+    found_.rightLine = right;
+    first_ = static_cast<int>(std::lround(left.column));
+    last_ = static_cast<int>(std::lround(right.column));
+  }
+
+  /// None where it is no use to look further.
+  std::optional<DoorCandidate> run(const std::vector<UprightLine>& lines) {
+    if (!hasDepthOfLeaf()) return std::nullopt;
+    place();
+    const double width = found_.width();
+    if (width < kLeastWidth || width > kMostWidth) return std::nullopt;
+    lookAtTop();
+    if (!lookAtJambs()) return std::nullopt;
+    if (width > kWidestLeaf && !hasMiddleLine(lines)) return std::nullopt;
+    lookAtFoot();
+    lookAtLeaf();
+    lookAtSurroundings();
+    judgeSize();
+    return found_;
+  }
+
+ private:
+  double leafZ(double z) const {
+    const double height = wall_.wall().cameraHeight;
+    return height + (z - height) * wall_.shrinkage(found_.leaf_y);
+  }
+  int leafRow(double z) const {
+    return std::clamp(static_cast<int>(std::lround(wall_.rowOf(leafZ(z)))), 0, wall_.height());
+  }
+  int wallRow(double z) const {
+    return std::clamp(static_cast<int>(std::lround(wall_.rowOf(z))), 0, wall_.height());
+  }
+  Box insideBox(double margin, double low, double high) const {
+    return {first_ + columns(margin), last_ - columns(margin), leafRow(high), leafRow(low)};
+  }
+
+  bool hasDepthOfLeaf();
+  void place();
+  void lookAtTop();
+  bool lookAtJambs();
+  bool hasMiddleLine(const std::vector<UprightLine>& lines);
+  void lookAtFoot();
+  void lookAtLeaf();
+  void lookAtSurroundings();
+  void judgeSize();
+
+  const RectifiedWall& wall_;
+  const WallEdges& edges_;
+  DoorCandidate found_;
+  int first_ = 0;
+  int last_ = 0;
+  double surround_y_ = 0.0;
+  double sigma_ = 0.0;       ///< of one block's offset
+  double height_ = kUsualHeight;  ///< of the leaf, as far as known
+};
+
+/// Where depth shows something else than a leaf in or behind the wall's plane, there is none: false.
+bool Examination::hasDepthOfLeaf() {
+  const Box leaf{first_ + 3, last_ - 3, wallRow(1.8), wallRow(0.25)};
+  int visible = 0;
+  int other = 0;
+  const Box box = clipped(leaf, wall_);
+  for (int row = box.top; row < box.bottom; row += RectifiedWall::kBlock) {
+    for (int column = box.first; column < box.last; column += RectifiedWall::kBlock) {
+      const Seen seen = wall_.seen(column, row);
+      if (isVisible(seen)) {
+        ++visible;
+      } else if (seen != Seen::kNothing) {
+        ++other;
+      }
+    }
+  }
+  if (visible < 20 || visible < 2 * other) return false;
+  const double middle = 0.5 * (wall_.xOf(first_) + wall_.xOf(last_));
+  const double range = wall_.rangeAt(middle);
+  sigma_ = 0.5 * sensors::depthSigma(range) * std::cos(wall_.obliquenessAt(middle)) + 0.004;
+  auto offsets = offsetsIn(wall_, leaf);
+  constexpr std::size_t kEnough = 12;
+  if (offsets.size() < kEnough) {
+    found_.leafSigma = 0.05;
+    return true;
+  }
+  found_.leaf_y = median(offsets);
+  found_.leafSigma = std::hypot(0.006, sigma_ / std::sqrt(0.2 * static_cast<double>(offsets.size())));
+  const auto inPlane = std::ranges::count_if(offsets, [&](float offset) {
+    return std::abs(static_cast<double>(offset) - found_.leaf_y) < 0.02 + 3.0 * sigma_;
+  });
+  found_.cue(Cue::kFlat) = static_cast<double>(inPlane) / static_cast<double>(offsets.size()) - 0.5;
+  const int third = (last_ - first_) / 3;
+  auto left = offsetsIn(wall_, {first_ + 3, first_ + third, leaf.top, leaf.bottom});
+  auto right = offsetsIn(wall_, {last_ - third, last_ - 3, leaf.top, leaf.bottom});
+  if (left.size() > 5 && right.size() > 5) {
+    found_.cue(Cue::kTurned) = std::clamp(std::abs(median(left) - median(right)) / 0.1, 0.0, 3.0);
+  }
+  return true;
+}
+
+/// Where the jambs truly are: an edge beyond which the leaf is seen to its end lies on the leaf, one that hides part of
+/// it lies on the wall's surface.
+void Examination::place() {
+  const int wide = columns(0.4);
+  const Box left{first_ - wide, first_ - columns(kFrame), wallRow(1.8), wallRow(0.4)};
+  const Box right{last_ + columns(kFrame), last_ + wide, wallRow(1.8), wallRow(0.4)};
+  auto around = offsetsIn(wall_, left);
+  const auto more = offsetsIn(wall_, right);
+  around.insert(around.end(), more.begin(), more.end());
+  std::erase_if(around, [](float y) { return std::abs(y) > 0.3F; });
+  const bool isKnown = around.size() > 8;
+  surround_y_ = isKnown ? median(around) : found_.leaf_y;
+  const double deeper = found_.leaf_y - surround_y_;
+  const double doubt = std::hypot(found_.leafSigma, 0.008);
+  if (isKnown && found_.cue(Cue::kFlat) != 0.0) {
+    found_.cue(Cue::kStandsOut) = std::clamp(-deeper / (0.01 + doubt) - 0.5, 0.0, 3.0);
+    found_.cue(Cue::kRecessed) = std::clamp(deeper / (0.01 + doubt) - 0.5, 0.0, 3.0);
+  }
+  const auto trueX = [&](double x, bool hides) {
+    return x / wall_.shrinkage(hides ? std::min(found_.leaf_y, surround_y_) : found_.leaf_y);
+  };
+  const double left_x = wall_.xOf(found_.leftLine.columnAt(wall_.rowOf(1.0)));
+  const double right_x = wall_.xOf(found_.rightLine.columnAt(wall_.rowOf(1.0)));
+  found_.left_x = trueX(left_x, left_x > 0.0);
+  found_.right_x = trueX(right_x, right_x < 0.0);
+}
+
+void Examination::lookAtTop() {
+  const int inset = 2;
+  const int highest = leafRow(2.35);
+  const int lowest = leafRow(1.65);
+  double best = 0.0;
+  int visible = 0;
+  int looked = 0;
+  for (int row = highest; row < lowest; ++row) {
+    best = std::max(best, edges_.levelEdge(row, first_ + inset, last_ - inset));
+    visible += isVisible(wall_.seen(std::clamp((first_ + last_) / 2, 0, wall_.width() - 1), row)) ? 1 : 0;
+    ++looked;
+  }
+  constexpr double kEdge = 0.5;
+  if (best < kEdge) {
+    const bool seesHeight = visible > 0.9 * looked;
+    found_.cue(Cue::kNoTop) = seesHeight ? 1.0 : 0.0;
+    return;
+  }
+  // Of several, the lowest: the leaf's own edge, below its frame's.
+  int row = lowest - 1;
+  while (edges_.levelEdge(row, first_ + inset, last_ - inset) < 0.85 * best) --row;
+  // An edge is thickened by a row to either side.
+  --row;
+  const double height = wall_.wall().cameraHeight;
+  found_.top_z = height + (wall_.zOf(row) - height) / wall_.shrinkage(found_.leaf_y);
+  found_.cue(Cue::kTop) = best;
+  height_ = found_.top_z;
+  const int near = columns(kFrame + 0.03);
+  const int far = columns(0.35);
+  const auto beyond = [&](int from, int to) {
+    double most = 0.0;
+    for (int i = -3; i <= 3; ++i) most = std::max(most, edges_.levelEdge(row + i, from, to));
+    return most;
+  };
+  found_.cue(Cue::kTopBeyond) = 0.5 * (beyond(first_ - far, first_ - near) + beyond(last_ + near, last_ + far));
+}
+
+bool Examination::lookAtJambs() {
+  const int top = leafRow(height_ - 0.04);
+  const int bottom = leafRow(0.03);
+  double worse = 1.0;
+  double better = 0.0;
+  int seenRows = 0;
+  for (const UprightLine* line : {&found_.leftLine, &found_.rightLine}) {
+    int visible = 0;
+    int supported = 0;
+    for (int row = top; row < bottom; ++row) {
+      const int column = static_cast<int>(std::lround(line->columnAt(row)));
+      if (column < 2 || column >= wall_.width() - 2) continue;
+      if (!isVisible(wall_.seen(column, row))) continue;
+      ++visible;
+      supported += edges_.support(*line, row, row + 1) > 0.0 ? 1 : 0;
+    }
+    constexpr int kLeastRows = 40;  // 60 cm
+    if (visible < kLeastRows) return false;
+    const double share = static_cast<double>(supported) / visible;
+    worse = std::min(worse, share);
+    better = std::max(better, share);
+    seenRows += visible;
+  }
+  constexpr double kLeastShare = 0.4;
+  if (worse < kLeastShare) return false;
+  found_.cue(Cue::kWeakerJamb) = worse;
+  found_.cue(Cue::kStrongerJamb) = better;
+  found_.cue(Cue::kCut) = 1.0 - seenRows / (2.0 * std::max(1, bottom - top));
+  return true;
+}
+
+/// Two leaves meet in a line.
+bool Examination::hasMiddleLine(const std::vector<UprightLine>& lines) {
+  const double middle = 0.5 * (first_ + last_);
+  const double tolerance = 0.07 * (last_ - first_);
+  const int top = leafRow(height_ - 0.1);
+  const int bottom = leafRow(0.1);
+  const bool found = std::ranges::any_of(lines, [&](const UprightLine& line) {
+    return std::abs(line.columnAt(wall_.rowOf(1.0)) - middle) < tolerance && edges_.support(line, top, bottom) > 0.5;
+  });
+  if (found) found_.leaves = 2;
+  return found;
+}
+
+void Examination::lookAtFoot() {
+  const Box low = insideBox(0.06, 0.02, 0.06);
+  const Box above = insideBox(0.06, 0.32, 0.6);
+  const auto foot = medianColor(colorsIn(wall_, low, 1), 12);
+  const auto leaf = medianColor(colorsIn(wall_, above, 3), 12);
+  if (!foot || !leaf) return;
+  found_.bottomIsSeen = true;
+  double edge = 0.0;
+  for (int row = leafRow(0.15); row < leafRow(0.045); ++row) {
+    edge = std::max(edge, edges_.levelEdge(row, first_ + 2, last_ - 2));
+  }
+  found_.cue(Cue::kSkirting) = std::max(0.0, edge - 0.3);
+  found_.cue(Cue::kReachesFloor) = 1.0 - std::min(1.0, difference(*foot, *leaf) / 40.0);
+  std::vector<cv::Vec3b> outside = colorsIn(
+      wall_, {first_ - columns(0.35), first_ - columns(kFrame), wallRow(0.055), wallRow(0.015)}, 1);
+  const auto right = colorsIn(
+      wall_, {last_ + columns(kFrame), last_ + columns(0.35), wallRow(0.055), wallRow(0.015)}, 1);
+  outside.insert(outside.end(), right.begin(), right.end());
+  if (const auto skirting = medianColor(outside, 10)) {
+    // A leaf of the skirting's colour has no edge above it.
+    const double alike = 1.0 - std::min(1.0, difference(*foot, *skirting) / 40.0);
+    found_.cue(Cue::kSkirtingAlike) = alike * (1.0 - found_.cue(Cue::kReachesFloor));
+  }
+}
+
+void Examination::lookAtLeaf() {
+  const Box leaf = insideBox(0.05, 0.3, height_ - 0.08);
+  const auto colors = colorsIn(wall_, leaf, 4);
+  const auto color = medianColor(colors, 20);
+  if (!color) return;
+  found_.cue(Cue::kUniform) = shareLike(colors, *color) - 0.5;
+  found_.cue(Cue::kClutter) = edges_.density(leaf.first, leaf.last, leaf.top, leaf.bottom);
+  const int from = 2;
+  const int to = std::max(4, columns(0.055));
+  const auto atLeft = colorsIn(wall_, {first_ + from, first_ + to, leaf.top, leaf.bottom}, 2);
+  const auto atRight = colorsIn(wall_, {last_ - to, last_ - from, leaf.top, leaf.bottom}, 2);
+  if (atLeft.size() < 10 || atRight.size() < 10) return;
+  found_.cue(Cue::kEdgeOfLeaf) = std::min(shareLike(atLeft, *color), shareLike(atRight, *color)) - 0.5;
+}
+
+/// A cupboard stands before what is around it.
+void Examination::lookAtSurroundings() {
+  constexpr double kFar = 0.1;  // metres
+  const int near = columns(0.09);
+  const int far = columns(0.35);
+  const auto behind = [&](const Box& unclipped) {
+    const Box box = clipped(unclipped, wall_);
+    int known = 0;
+    int deep = 0;
+    for (int row = box.top; row < box.bottom; row += RectifiedWall::kBlock) {
+      for (int column = box.first; column < box.last; column += RectifiedWall::kBlock) {
+        const float offset = wall_.offset(column, row);
+        if (std::isnan(offset)) continue;
+        ++known;
+        deep += static_cast<double>(offset) > found_.leaf_y + kFar + 2.0 * sigma_ ? 1 : 0;
+      }
+    }
+    return known < 5 ? 0.0 : static_cast<double>(deep) / known;
+  };
+  const int top = wallRow(1.8);
+  const int bottom = wallRow(0.4);
+  const double left = behind({first_ - far, first_ - near, top, bottom});
+  const double right = behind({last_ + near, last_ + far, top, bottom});
+  const double above = behind({first_, last_, wallRow(height_ + 0.35), wallRow(height_ + 0.12)});
+  found_.cue(Cue::kNothingAround) = (left + right + above) / 2.0;
+}
+
+void Examination::judgeSize() {
+  const double leaf = found_.width() / found_.leaves;
+  found_.cue(Cue::kNarrow) = std::max(0.0, 0.75 - leaf) / 0.1;
+  found_.cue(Cue::kWide) = std::max(0.0, leaf - 1.05) / 0.1;
+  if (found_.top_z <= 0.0) return;
+  found_.cue(Cue::kLow) = std::max(0.0, 1.9 - found_.top_z) / 0.1;
+  found_.cue(Cue::kHigh) = std::max(0.0, found_.top_z - 2.15) / 0.1;
+}
+
+}  // namespace
+
+std::vector<DoorCandidate> pairLines(const RectifiedWall& wall, const WallEdges& edges,
+                                     const std::vector<UprightLine>& lines) {
+  std::vector<DoorCandidate> candidates;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (std::size_t j = i + 1; j < lines.size(); ++j) {
+      const double appears = (lines[j].column - lines[i].column) * RectifiedWall::kPixel;
+      if (appears < 0.6 * kLeastWidth || appears > 1.1 * kMostWidth) continue;
+      const double slant = std::abs(lines[j].slope - lines[i].slope);
+      if (slant > 0.06) continue;
+      if (auto candidate = Examination(wall, edges, lines[i], lines[j]).run(lines)) candidates.push_back(*candidate);
+    }
+  }
+  return candidates;
+}
+
+}  // namespace prodomos::perception

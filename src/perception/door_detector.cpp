@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prodomos/perception/door_detector.hpp"
+
+#include "perception/door_candidates.hpp"
+#include "perception/door_handle.hpp"
+#include "perception/door_segments.hpp"
+#include "perception/door_verdict.hpp"
+#include "perception/rectified_wall.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace prodomos::perception {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr std::size_t kMostWalls = 4;  // a view; the greatest
+
+bool isUsable(const RgbdView& view, const Surfaces& surfaces) {
+  const auto& color = view.frame.color;
+  const auto& camera = surfaces.depth.camera();
+  return !color.empty() && !surfaces.patches.empty() && color.width() == camera.width() &&
+         color.height() == camera.height() && geometry::isFinite(view.T_submap_camera);
+}
+
+/// A door as the wall's image and depth give it, with how well they do.
+DoorSighting sightingOf(const RgbdView& view, const RectifiedWall& wall, const DoorCandidate& candidate,
+                        const Handle& handle, double evidence) {
+  DoorSighting sighting;
+  sighting.time = view.time;
+  const double x = 0.5 * (candidate.left_x + candidate.right_x);
+  // The door's axes: x away from the observer, y to the left, z up.
+  const geometry::Pose3& T_submap_wall = wall.wall().T_submap_wall;
+  sighting.T_submap_door.linear() << T_submap_wall.linear().col(1), -T_submap_wall.linear().col(0), Vector3d::UnitZ();
+  sighting.T_submap_door.translation() = T_submap_wall * Vector3d(x, candidate.leaf_y, 0.0);
+  sighting.door.width = candidate.width();
+  sighting.door.height = candidate.top_z;
+  sighting.door.state = map::DoorState::kClosed;
+  sighting.range = wall.rangeAt(x);
+  sighting.evidence = evidence;
+  sighting.whole = candidate.cue(Cue::kCut) < 0.2;
+  const double sight = std::tan(wall.obliquenessAt(x));
+  const double pixel = 1.5 * sighting.range / (500.0 * std::max(0.2, std::cos(wall.obliquenessAt(x))));
+  const double alongSigma = std::hypot(0.015, pixel, 0.7 * candidate.leafSigma * sight);
+  sighting.widthSigma = std::hypot(0.02, pixel, candidate.leafSigma * sight);
+  const double acrossSigma = std::hypot(0.01, candidate.leafSigma);
+  const double yawSigma = std::hypot(0.01, 0.5 * sensors::depthSigma(sighting.range));
+  Eigen::Matrix2d inDoor = Eigen::Matrix2d::Zero();
+  inDoor.diagonal() << acrossSigma * acrossSigma, alongSigma * alongSigma;
+  const Eigen::Matrix2d turn = sighting.T_submap_door.linear().topLeftCorner<2, 2>();
+  sighting.covariance.topLeftCorner<2, 2>() = turn * inDoor * turn.transpose();
+  sighting.covariance(2, 2) = 0.02 * 0.02;
+  sighting.covariance(3, 3) = yawSigma * yawSigma;
+  if (candidate.leaves == 1 && handle.left > 0.0 && handle.right > 0.0) {
+    // The hinge is on the other side of the handle (002 §II-D).
+    sighting.hingeEvidence = std::clamp(std::log(handle.right / handle.left), -3.0, 3.0);
+    sighting.door.hingeSide = sighting.hingeEvidence > 0.0 ? map::HingeSide::kLeft : map::HingeSide::kRight;
+  }
+  return sighting;
+}
+
+/// Of doors that overlap in a wall, the one that has most evidence.
+std::vector<DoorSighting> strongest(std::vector<DoorSighting> sightings) {
+  std::ranges::stable_sort(sightings, std::greater{}, &DoorSighting::evidence);
+  std::vector<DoorSighting> kept;
+  for (const auto& sighting : sightings) {
+    const auto overlaps = [&](const DoorSighting& other) {
+      const Vector3d between = other.T_submap_door.inverse() * sighting.T_submap_door.translation();
+      return between.head<2>().norm() < 0.45 * (sighting.door.width + other.door.width);
+    };
+    if (std::ranges::none_of(kept, overlaps)) kept.push_back(sighting);
+  }
+  return kept;
+}
+
+}  // namespace
+
+void describe(base::ConfigVisitor& visitor, DoorDetectorConfig& config) {
+  static constexpr std::array<std::string_view, 2> kMethods{"paper", "segments"};
+  visitor.section("doors", "closed doors in RGB-D images");
+  visitor.key("enabled", config.enabled, "look for closed doors");
+  visitor.choice("method", config.method, kMethods,
+                 "pairs of salient points as in paper 002, or lines as jambs and what speaks for a leaf");
+  visitor.key("reach", config.reach, "m", {1.0, 15.0}, "walls are looked at up to this range");
+  visitor.key("edge_contrast", config.edgeContrast, "", {2.0, 100.0}, "of a jamb, in the channel that differs most");
+  visitor.key("tilt", config.tilt, "rad", {0.005, 0.3}, "that a jamb may deviate from the vertical");
+  visitor.key("least_evidence", config.leastEvidence, "log-odds", {-20.0, 20.0}, "from which on a door is reported");
+  visitor.endSection();
+}
+
+std::vector<DoorSighting> findDoors(const RgbdView& view, const Surfaces& surfaces, const DoorDetectorConfig& config,
+                                    DebugImages* debug) {
+  std::vector<DoorSighting> sightings;
+  (void)debug;
+  if (!config.enabled || !isUsable(view, surfaces)) return sightings;
+  auto walls = findWalls(view, surfaces);
+  walls.resize(std::min(walls.size(), kMostWalls), Wall{});
+  for (const Wall& seen : walls) {
+    const RectifiedWall wall(view, surfaces, seen, config.reach);
+    if (wall.empty()) continue;
+    const WallEdges edges(wall, config.edgeContrast);
+    for (auto& candidate : pairLines(wall, edges, edges.uprightLines(config.tilt))) {
+      const Handle handle = findHandle(wall, candidate);
+      const double evidence = evidenceOf(candidate);
+      if (evidence < config.leastEvidence) continue;
+      sightings.push_back(sightingOf(view, wall, candidate, handle, evidence));
+    }
+  }
+  return strongest(std::move(sightings));
+}
+
+}  // namespace prodomos::perception
