@@ -7,12 +7,14 @@
 #include "prodomos/perception/sightings.hpp"
 #include "prodomos/perception/surfaces.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace prodomos::perception {
 
 struct StaircaseDetectorConfig {
   bool enabled = true;
+  std::uint64_t seed = 1;  ///< of all chance
 };
 
 void describe(base::ConfigVisitor& visitor, StaircaseDetectorConfig& config);
