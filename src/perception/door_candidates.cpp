@@ -86,7 +86,8 @@ std::optional<Color> medianColor(const std::vector<cv::Vec3b>& colors, std::size
   std::array<double, 3> medians{};
   std::vector<float> channel(colors.size());
   for (int i = 0; i < 3; ++i) {
-    std::ranges::transform(colors, channel.begin(), [i](const cv::Vec3b& color) { return static_cast<float>(color[i]); });
+    std::ranges::transform(colors, channel.begin(),
+                           [i](const cv::Vec3b& color) { return static_cast<float>(color[i]); });
     medians[static_cast<std::size_t>(i)] = median(channel);
   }
   return Color{medians[0], medians[1], medians[2]};
@@ -125,6 +126,7 @@ class Examination {
     lookAtFoot();
     lookAtLeaf();
     lookAtSurroundings();
+    lookAtHandle();
     judgeSize();
     return found_;
   }
@@ -137,9 +139,7 @@ class Examination {
   int leafRow(double z) const {
     return std::clamp(static_cast<int>(std::lround(wall_.rowOf(leafZ(z)))), 0, wall_.height());
   }
-  int wallRow(double z) const {
-    return std::clamp(static_cast<int>(std::lround(wall_.rowOf(z))), 0, wall_.height());
-  }
+  int wallRow(double z) const { return std::clamp(static_cast<int>(std::lround(wall_.rowOf(z))), 0, wall_.height()); }
   Box insideBox(double margin, double low, double high) const {
     return {first_ + columns(margin), last_ - columns(margin), leafRow(high), leafRow(low)};
   }
@@ -152,6 +152,7 @@ class Examination {
   void lookAtFoot();
   void lookAtLeaf();
   void lookAtSurroundings();
+  void lookAtHandle();
   void judgeSize();
 
   const RectifiedWall& wall_;
@@ -160,7 +161,7 @@ class Examination {
   int first_ = 0;
   int last_ = 0;
   double surround_y_ = 0.0;
-  double sigma_ = 0.0;       ///< of one block's offset
+  double sigma_ = 0.0;            ///< of one block's offset
   double height_ = kUsualHeight;  ///< of the leaf, as far as known
 };
 
@@ -326,10 +327,10 @@ void Examination::lookAtFoot() {
   }
   found_.cue(Cue::kSkirting) = std::max(0.0, edge - 0.3);
   found_.cue(Cue::kReachesFloor) = 1.0 - std::min(1.0, difference(*foot, *leaf) / 40.0);
-  std::vector<cv::Vec3b> outside = colorsIn(
-      wall_, {first_ - columns(0.35), first_ - columns(kFrame), wallRow(0.055), wallRow(0.015)}, 1);
-  const auto right = colorsIn(
-      wall_, {last_ + columns(kFrame), last_ + columns(0.35), wallRow(0.055), wallRow(0.015)}, 1);
+  std::vector<cv::Vec3b> outside =
+      colorsIn(wall_, {first_ - columns(0.35), first_ - columns(kFrame), wallRow(0.055), wallRow(0.015)}, 1);
+  const auto right =
+      colorsIn(wall_, {last_ + columns(kFrame), last_ + columns(0.35), wallRow(0.055), wallRow(0.015)}, 1);
   outside.insert(outside.end(), right.begin(), right.end());
   if (const auto skirting = medianColor(outside, 10)) {
     // A leaf of the skirting's colour has no edge above it.
@@ -378,6 +379,13 @@ void Examination::lookAtSurroundings() {
   const double right = behind({last_ + near, last_ + far, top, bottom});
   const double above = behind({first_, last_, wallRow(height_ + 0.35), wallRow(height_ + 0.12)});
   found_.cue(Cue::kNothingAround) = (left + right + above) / 2.0;
+}
+
+void Examination::lookAtHandle() {
+  found_.handle = findHandle(wall_, found_.left_x, found_.right_x, found_.leaf_y);
+  const Handle& handle = found_.handle;
+  const double corner = found_.leaves == 2 ? handle.middle : std::max(handle.left, handle.right);
+  if (corner > 0.0 && handle.leaf > 0.0) found_.cue(Cue::kHandle) = std::log(corner / handle.leaf);
 }
 
 void Examination::judgeSize() {

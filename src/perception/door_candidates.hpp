@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "perception/door_handle.hpp"
 #include "perception/door_segments.hpp"
 #include "perception/rectified_wall.hpp"
 
@@ -14,28 +15,28 @@ namespace prodomos::perception {
 
 /// What speaks for or against a door between two upright lines; 0 where the view does not tell.
 enum class Cue : std::uint8_t {
-  kWeakerJamb,      ///< share of the worse jamb's visible rows that have an edge
-  kStrongerJamb,    ///< of the better one's
-  kTop,             ///< share of a level edge between the jambs at a door's height
-  kTopBeyond,       ///< share of it that goes on outside of the jambs: a dado, a row of lockers, a ledge
-  kNoTop,           ///< 1: its height is seen, and there is no level edge
-  kSkirting,        ///< an edge as that of a skirting runs through below
-  kSkirtingAlike,   ///< what is below looks like the foot of the wall outside
-  kReachesFloor,    ///< down to the floor it has its own colour
-  kUniform,         ///< share of the leaf that has its colour
-  kClutter,         ///< density of edges in it
-  kEdgeOfLeaf,      ///< share of the strips beside the jambs that has the leaf's colour
-  kFlat,            ///< share of known depths that lie in its plane
-  kTurned,          ///< how far one side lies behind the other
-  kStandsOut,       ///< it lies before the wall around it: a panel, a poster, a board
-  kRecessed,        ///< it lies behind it
-  kNothingAround,   ///< share of its surroundings that lie far behind it: a cupboard
-  kHandle,          ///< something with corners where a handle must be
-  kNarrow,          ///< less wide than doors are
-  kWide,            ///< wider
-  kLow,             ///< its top is lower than doors are
-  kHigh,            ///< higher
-  kCut,             ///< share of its outline that is not seen
+  kWeakerJamb,     ///< share of the worse jamb's visible rows that have an edge
+  kStrongerJamb,   ///< of the better one's
+  kTop,            ///< share of a level edge between the jambs at a door's height
+  kTopBeyond,      ///< share of it that goes on outside of the jambs: a dado, a row of lockers, a ledge
+  kNoTop,          ///< 1: its height is seen, and there is no level edge
+  kSkirting,       ///< an edge as that of a skirting runs through below
+  kSkirtingAlike,  ///< what is below looks like the foot of the wall outside
+  kReachesFloor,   ///< down to the floor it has its own colour
+  kUniform,        ///< share of the leaf that has its colour
+  kClutter,        ///< density of edges in it
+  kEdgeOfLeaf,     ///< share of the strips beside the jambs that has the leaf's colour
+  kFlat,           ///< share of known depths that lie in its plane
+  kTurned,         ///< how far one side lies behind the other
+  kStandsOut,      ///< it lies before the wall around it: a panel, a poster, a board
+  kRecessed,       ///< it lies behind it
+  kNothingAround,  ///< share of its surroundings that lie far behind it: a cupboard
+  kHandle,         ///< something with corners where a handle must be
+  kNarrow,         ///< less wide than doors are
+  kWide,           ///< wider
+  kLow,            ///< its top is lower than doors are
+  kHigh,           ///< higher
+  kCut,            ///< share of its outline that is not seen
   kCount,
 };
 using Cues = std::array<double, static_cast<std::size_t>(Cue::kCount)>;
@@ -44,13 +45,14 @@ using Cues = std::array<double, static_cast<std::size_t>(Cue::kCount)>;
 struct DoorCandidate {
   UprightLine leftLine;
   UprightLine rightLine;
-  double left_x = 0.0;   ///< of the opening, where the jambs truly are
+  double left_x = 0.0;  ///< of the opening, where the jambs truly are
   double right_x = 0.0;
-  double leaf_y = 0.0;   ///< of the leaf's plane
+  double leaf_y = 0.0;  ///< of the leaf's plane
   double leafSigma = 0.0;
-  double top_z = 0.0;    ///< 0: not seen
+  double top_z = 0.0;  ///< 0: not seen
   bool bottomIsSeen = false;
   int leaves = 1;
+  Handle handle;
   Cues cues{};
 
   double width() const { return right_x - left_x; }

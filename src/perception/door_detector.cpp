@@ -30,7 +30,8 @@ bool isUsable(const RgbdView& view, const Surfaces& surfaces) {
 
 /// A door as the wall's image and depth give it, with how well they do.
 DoorSighting sightingOf(const RgbdView& view, const RectifiedWall& wall, const DoorCandidate& candidate,
-                        const Handle& handle, double evidence) {
+                        double evidence) {
+  const Handle& handle = candidate.handle;
   DoorSighting sighting;
   sighting.time = view.time;
   const double x = 0.5 * (candidate.left_x + candidate.right_x);
@@ -105,10 +106,9 @@ std::vector<DoorSighting> findDoors(const RgbdView& view, const Surfaces& surfac
     if (wall.empty()) continue;
     const WallEdges edges(wall, config.edgeContrast);
     for (auto& candidate : pairLines(wall, edges, edges.uprightLines(config.tilt))) {
-      const Handle handle = findHandle(wall, candidate);
       const double evidence = evidenceOf(candidate);
       if (evidence < config.leastEvidence) continue;
-      sightings.push_back(sightingOf(view, wall, candidate, handle, evidence));
+      sightings.push_back(sightingOf(view, wall, candidate, evidence));
     }
   }
   return strongest(std::move(sightings));

@@ -12,12 +12,6 @@ namespace prodomos::perception {
 
 namespace {
 
-// Where handles are: heights above the floor, and distances from the jamb, metres.
-constexpr double kLowest = 0.7;
-constexpr double kHighest = 1.25;
-constexpr double kNearJamb = 0.06;
-constexpr double kFarFromJamb = 0.25;
-
 int columnAt(const RectifiedWall& wall, double x) {
   return static_cast<int>(std::lround(wall.columnOf(x)));
 }
@@ -33,17 +27,17 @@ double greatest(const cv::Mat& corners, int first, int last) {
 
 }  // namespace
 
-Handle findHandle(const RectifiedWall& wall, const DoorCandidate& candidate) {
+Handle findHandle(const RectifiedWall& wall, double left, double right, double offset) {
   Handle handle;
-  const double shrinkage = wall.shrinkage(candidate.leaf_y);
+  const double shrinkage = wall.shrinkage(offset);
   const double height = wall.wall().cameraHeight;
   const auto row = [&](double z) {
     return std::clamp(static_cast<int>(std::lround(wall.rowOf(height + (z - height) * shrinkage))), 0, wall.height());
   };
-  const int first = std::max(0, columnAt(wall, candidate.left_x * shrinkage));
-  const int last = std::min(wall.width(), columnAt(wall, candidate.right_x * shrinkage));
-  const int top = row(kHighest);
-  const int bottom = row(kLowest);
+  const int first = std::max(0, columnAt(wall, left * shrinkage));
+  const int last = std::min(wall.width(), columnAt(wall, right * shrinkage));
+  const int top = row(Handle::kHighest);
+  const int bottom = row(Handle::kLowest);
   if (last - first < 12 || bottom - top < 12) return handle;
   cv::Mat gray;
   cv::cvtColor(wall.color()(cv::Range(top, bottom), cv::Range(first, last)), gray, cv::COLOR_RGB2GRAY);
@@ -55,8 +49,8 @@ Handle findHandle(const RectifiedWall& wall, const DoorCandidate& candidate) {
     }
   }
   const auto columns = [](double metres) { return static_cast<int>(std::lround(metres / RectifiedWall::kPixel)); };
-  const int near = columns(kNearJamb);
-  const int far = columns(kFarFromJamb);
+  const int near = columns(Handle::kNearJamb);
+  const int far = columns(Handle::kFarFromJamb);
   handle.left = greatest(corners, near, far);
   handle.right = greatest(corners, corners.cols - far, corners.cols - near);
   const int middle = corners.cols / 2;

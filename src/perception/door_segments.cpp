@@ -119,8 +119,8 @@ struct Run {
 
 /// Links the edge pixels of each row to runs that end just above.
 std::vector<Run> linkRuns(const cv::Mat& upright) {
-  constexpr int kGap = 6;          // rows without an edge that a run bridges
-  constexpr double kAside = 1.6;   // columns from one pixel to the next
+  constexpr int kGap = 6;           // rows without an edge that a run bridges
+  constexpr double kAside = 1.6;    // columns from one pixel to the next
   constexpr int kLeastPixels = 12;  // 18 cm
   std::vector<Run> open;            // by column, nearly
   std::vector<Run> done;
@@ -168,7 +168,9 @@ bool continues(const Run& a, const Run& b, double tolerance) {
   const double rows = std::abs(above.middleRow - below.middleRow);
   const double slope = (below.column - above.column) / (below.middleRow - above.middleRow);
   if (std::abs(slope) > std::tan(tolerance)) return false;
-  const auto off = [&](const UprightLine& line) { return std::abs(line.slope - slope) * 0.5 * (line.bottom - line.top); };
+  const auto off = [&](const UprightLine& line) {
+    return std::abs(line.slope - slope) * 0.5 * (line.bottom - line.top);
+  };
   return rows > 0.0 && off(above) < kOff && off(below) < kOff;
 }
 
@@ -234,8 +236,8 @@ double WallEdges::density(int first, int last, int top, int bottom) const {
   top = std::clamp(top, 0, edgeCount_.rows - 1);
   bottom = std::clamp(bottom, 0, edgeCount_.rows - 1);
   if (last <= first || bottom <= top) return 0.0;
-  const int count = edgeCount_.at<int>(bottom, last) - edgeCount_.at<int>(top, last) - edgeCount_.at<int>(bottom, first) +
-                    edgeCount_.at<int>(top, first);
+  const int count = edgeCount_.at<int>(bottom, last) - edgeCount_.at<int>(top, last) -
+                    edgeCount_.at<int>(bottom, first) + edgeCount_.at<int>(top, first);
   return static_cast<double>(count) / ((last - first) * (bottom - top));
 }
 

@@ -14,30 +14,14 @@ struct CueWeight {
   double weight;
 };
 
-constexpr double kBias = -6.0;
+constexpr double kBias = -15.19;
 constexpr std::array<CueWeight, static_cast<std::size_t>(Cue::kCount)> kWeights{{
-    {"weaker jamb", 3.0},
-    {"stronger jamb", 2.0},
-    {"top edge", 3.0},
-    {"top goes on", -3.0},
-    {"no top", -3.0},
-    {"skirting", -3.0},
-    {"wall's foot", -3.0},
-    {"reaches floor", 2.0},
-    {"uniform", 2.0},
-    {"clutter", -20.0},
-    {"leaf at jambs", 1.0},
-    {"flat", 2.0},
-    {"turned", -1.0},
-    {"stands out", -1.5},
-    {"recessed", 0.5},
-    {"nothing around", -6.0},
-    {"handle", 0.5},
-    {"narrow", -1.0},
-    {"wide", -0.7},
-    {"low", -1.0},
-    {"high", -1.0},
-    {"cut", -2.0},
+    {"weaker jamb", 5.00}, {"stronger jamb", 4.24}, {"top edge", 2.52},       {"top goes on", -4.16},
+    {"no top", -3.61},     {"skirting", -3.21},     {"wall's foot", -2.71},   {"reaches floor", 2.73},
+    {"uniform", 7.05},     {"clutter", -6.47},      {"leaf at jambs", -1.49}, {"flat", 3.25},
+    {"turned", 0.18},      {"stands out", -2.35},   {"recessed", 0.98},       {"nothing around", -15.45},
+    {"handle", 0.32},      {"narrow", -4.05},       {"wide", -3.15},          {"low", -2.25},
+    {"high", 0.65},        {"cut", -0.90},
 }};
 
 }  // namespace

@@ -77,9 +77,8 @@ std::vector<Wall> findWalls(const RgbdView& view, const Surfaces& surfaces) {
     }
     extend(*wall, view, surfaces, patch);
   }
-  std::erase_if(walls, [](const Wall& wall) {
-    return wall.area < kLeastArea || wall.most_x - wall.least_x < kLeastLength;
-  });
+  std::erase_if(walls,
+                [](const Wall& wall) { return wall.area < kLeastArea || wall.most_x - wall.least_x < kLeastLength; });
   std::ranges::stable_sort(walls, std::greater{}, &Wall::area);
   return walls;
 }
@@ -130,9 +129,8 @@ void RectifiedWall::chooseSpan(const RgbdView& view, const Surfaces& surfaces, d
   constexpr double kBeyondEnd = 0.3;     // metres
   constexpr double kDepthReaches = 3.5;  // metres
   const sensors::Camera& camera = surfaces.depth.camera();
-  const double farthest =
-      std::min(std::sqrt(std::max(0.0, reach * reach - wall_.distance * wall_.distance)),
-               wall_.distance * std::tan(kSteepestLook));
+  const double farthest = std::min(std::sqrt(std::max(0.0, reach * reach - wall_.distance * wall_.distance)),
+                                   wall_.distance * std::tan(kSteepestLook));
   const auto onward = [&](double x) {
     return std::hypot(x, wall_.distance) > kDepthReaches ? farthest : std::abs(x) + kBeyondEnd;
   };
