@@ -33,8 +33,11 @@ constexpr double kTreadDepth = 0.55;      // metres; level patches that are broa
 constexpr double kFloorSkin = 0.03;       // metres
 constexpr double kUpright = 1.05;         // radians of tilt: 60 degrees and more
 constexpr double kLevel = 0.40;           // radians: 23 degrees; low, short treads are measured up to 19 off level
-constexpr double kLeastSlope = 0.14;      // rise over run: 8 degrees
-constexpr double kMostSlope = 1.2;        // 50 degrees
+constexpr double kBeside = 0.4;           // metres: what belongs to a flight that was found
+constexpr double kBelow = 0.5;
+constexpr double kRails = 1.4;
+constexpr double kLeastSlope = 0.14;  // rise over run: 8 degrees
+constexpr double kMostSlope = 1.2;    // 50 degrees
 
 /// What of the view may belong to a flight.
 struct Material {
@@ -185,6 +188,19 @@ void removeSlab(const Plane& plane, std::vector<StairCell>& cells) {
   });
 }
 
+/// Whatever stands on the flight or beside it, its rails among that, is no other flight.
+void removeFlight(const StaircaseSighting& flight, Material& material) {
+  const Pose3 T_stairs_submap = flight.T_submap_stairs.inverse();
+  const auto isOfFlight = [&](const StairCell& cell) {
+    const Eigen::Vector3d p = T_stairs_submap * cell.point_in_submap;
+    const double above = p.z() - flight.slope * p.x();
+    return std::abs(p.y()) < 0.5 * flight.width + kBeside && above > -kBelow && above < kRails &&
+           p.x() > flight.steps.front().along - 1.0 && p.x() < flight.steps.back().along + 1.5;
+  };
+  std::erase_if(material.cells, isOfFlight);
+  std::erase_if(material.voxels, isOfFlight);
+}
+
 std::optional<StaircaseSighting> flightOn(const Plane& slope, const std::vector<StairCell>& slab, const RgbdView& view,
                                           const Surfaces& surfaces, const Material& material) {
   const Pose3 T_submap_slope = flightFrame(slope, slab);
@@ -215,7 +231,10 @@ std::vector<StaircaseSighting> findStaircases(const RgbdView& view, const Surfac
     if (!slope) break;
     const std::vector<StairCell> slab = slabOf(*slope, material.voxels);
     if (slab.size() >= kLeastPoints && isSlope(*slope, view.T_submap_camera.translation())) {
-      if (auto sighting = flightOn(*slope, slab, view, surfaces, material)) sightings.push_back(std::move(*sighting));
+      if (auto sighting = flightOn(*slope, slab, view, surfaces, material)) {
+        removeFlight(*sighting, material);
+        sightings.push_back(std::move(*sighting));
+      }
     }
     removeSlab(*slope, material.voxels);
   }

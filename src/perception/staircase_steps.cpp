@@ -22,6 +22,7 @@ constexpr std::size_t kLeastCells = 10;  // of a step
 constexpr double kLeastWidth = 0.35;     // metres of a step that must be seen
 constexpr double kBin = 0.05;            // metres across
 constexpr int kGapBins = 5;              // that a post or a rail may hide
+constexpr double kProfile = 0.02;        // metres off the profile, but for depth noise
 constexpr double kAside = 0.10;          // metres beyond a step's end, where its side shows
 constexpr double kInFront = 0.35;        // metres; what hides a step stands that much nearer
 constexpr int kMostStep = 40;            // from the frame's origin, either way
@@ -56,42 +57,95 @@ std::vector<PlacedCell> placed(std::span<const StairCell> cells, const StepLatti
   for (const StairCell& cell : cells) {
     const Eigen::Vector3d point = T_flight_submap * cell.point_in_submap;
     const StepPlace place = lattice.placeOf(point.x(), point.z());
-    if (place.distance > 0.02 + 2.0 * cell.sigma || std::abs(place.step) > kMostStep) continue;
+    if (place.distance > kProfile + 2.0 * cell.sigma || std::abs(place.step) > kMostStep) continue;
     onSteps.push_back({place, point, cell.sigma});
   }
   return onSteps;
 }
 
-/// Drops what is not in the row of cells across that has most of them: a flight is one piece.
-void keepOneFlight(std::vector<PlacedCell>& cells) {
-  constexpr int kBins = 160;
-  std::array<std::size_t, kBins> counts{};
-  const auto binOf = [](double y) { return static_cast<int>(std::floor(y / kBin)) + kBins / 2; };
-  std::erase_if(cells, [&](const PlacedCell& c) { return binOf(c.point.y()) < 0 || binOf(c.point.y()) >= kBins; });
-  for (const PlacedCell& c : cells) ++counts[static_cast<std::size_t>(binOf(c.point.y()))];
-  std::size_t most = 0;
-  int bestFirst = 0;
-  int bestLast = -1;
-  std::size_t sum = 0;
-  int first = 0;
-  int last = -kBins;
-  for (int bin = 0; bin < kBins; ++bin) {
-    const std::size_t count = counts[static_cast<std::size_t>(bin)];
-    if (count < 3) continue;
-    if (bin - last > kGapBins) {
-      first = bin;
-      sum = 0;
+/// Looks along the profile, step by step and column by column across: a step that is there hides what is behind it.
+class ProfileCheck {
+ public:
+  ProfileCheck(const RgbdView& view, const Surfaces& surfaces, const StepLattice& lattice, const Pose3& T_submap_flight)
+      : grid_(surfaces.depth),
+        lattice_(lattice),
+        T_camera_flight_(view.T_submap_camera.inverse() * T_submap_flight),
+        T_flight_camera_(T_camera_flight_.inverse()) {}
+
+  struct Count {
+    int there = 0;
+    int free = 0;  ///< one looks through where it should be
+    Count& operator+=(const Count& other) {
+      there += other.there;
+      free += other.free;
+      return *this;
     }
-    last = bin;
-    sum += count;
-    if (sum > most) {
-      most = sum;
-      bestFirst = first;
-      bestLast = last;
+  };
+
+  Count at(int step, double y) const {
+    const Eigen::Vector3d eye = T_flight_camera_.translation();
+    Count count;
+    if (eye.x() < lattice_.riserAt(step)) {
+      count += at({lattice_.riserAt(step), y, lattice_.treadAt(step) - 0.5 * lattice_.rise});
     }
+    if (eye.z() > lattice_.treadAt(step)) {
+      count += at({lattice_.riserAt(step) + 0.5 * lattice_.depth, y, lattice_.treadAt(step)});
+    }
+    return count;
   }
-  std::erase_if(cells,
-                [&](const PlacedCell& c) { return binOf(c.point.y()) < bestFirst || binOf(c.point.y()) > bestLast; });
+
+ private:
+  Count at(const Eigen::Vector3d& point_in_flight) const {
+    const Eigen::Vector3d expected = T_camera_flight_ * point_in_flight;
+    const auto* cell = grid_.cellAt(expected);
+    if (cell == nullptr) return {};
+    const auto depth = static_cast<double>(cell->depth);
+    const double sigma = sensors::depthSigma(depth);
+    const Eigen::Vector3d seen = T_flight_camera_ * pointOf(*cell);
+    if (lattice_.placeOf(seen.x(), seen.z()).distance < kProfile + 2.0 * sigma &&
+        (seen - point_in_flight).norm() < lattice_.depth + 2.0 * sigma) {
+      return {1, 0};
+    }
+    return {0, depth > expected.z() + 0.5 * lattice_.depth + 2.0 * sigma ? 1 : 0};
+  }
+
+  const sensors::DepthGrid& grid_;
+  const StepLattice& lattice_;
+  Pose3 T_camera_flight_;
+  Pose3 T_flight_camera_;
+};
+
+struct Across {
+  double least = 0.0;
+  double most = 0.0;
+};
+
+/// The widest row of columns in which the steps from `lowest` to `highest` are there rather than looked through.
+Across widestRow(const ProfileCheck& check, int lowest, int highest) {
+  constexpr int kBins = 60;  // either way
+  Across best;
+  int first = 0;
+  int last = -10 * kBins;
+  for (int bin = -kBins; bin < kBins; ++bin) {
+    ProfileCheck::Count count;
+    for (int step = lowest; step <= highest; ++step) count += check.at(step, (bin + 0.5) * kBin);
+    const bool isThrough = count.free > count.there;
+    if (isThrough) last = -10 * kBins;
+    if (isThrough || count.there == 0) continue;
+    if (bin - last > kGapBins) first = bin;
+    last = bin;
+    if ((last + 1 - first) * kBin > best.most - best.least) best = {first * kBin, (last + 1) * kBin};
+  }
+  return best;
+}
+
+/// Drops steps that are looked through.
+void dropThoseNotThere(std::vector<SeenStep>& steps, const ProfileCheck& check, const Across& across) {
+  std::erase_if(steps, [&](const SeenStep& step) {
+    ProfileCheck::Count count;
+    for (double y = across.least + 0.5 * kBin; y < across.most; y += kBin) count += check.at(step.index, y);
+    return count.there * kBin < kLeastWidth * 0.5 || count.free > count.there;
+  });
 }
 
 /// The steps that were seen, upwards.
@@ -327,8 +381,14 @@ std::optional<StaircaseSighting> confirmSteps(const RgbdView& view, const Surfac
                                               const Pose3& T_submap_flight) {
   if (found.roughness > kMostRoughness) return std::nullopt;
   std::vector<PlacedCell> onSteps = placed(cells, found.lattice, T_submap_flight);
-  keepOneFlight(onSteps);
   std::vector<SeenStep> steps = longestRun(stepsOf(onSteps));
+  if (steps.size() < kLeastSteps) return std::nullopt;
+  const ProfileCheck check(view, surfaces, found.lattice, T_submap_flight);
+  const Across across = widestRow(check, steps.front().index, steps.back().index);
+  std::erase_if(onSteps, [&](const PlacedCell& c) { return c.point.y() < across.least || c.point.y() > across.most; });
+  steps = stepsOf(onSteps);
+  dropThoseNotThere(steps, check, across);
+  steps = longestRun(std::move(steps));
   if (steps.size() < kLeastSteps) return std::nullopt;
   const int lowest = steps.front().index;
   const int highest = steps.back().index;
