@@ -29,9 +29,9 @@ class PersonTracker {
   bool wants(base::Time time) const;
   /// The sightings of one reading, none included, in time. `grid`: of the sub-map, for the dominant side; may be null.
   void add(base::SubMapId submap, base::Time time, const std::vector<PersonSighting>& sightings,
-           const geometry::Pose3& T_submap_sensor, const map::OccupancyGrid* grid);
+           const map::OccupancyGrid* grid);
   /// The robot goes on into another sub-map: those followed come along.
-  void enter(base::SubMapId submap, const geometry::Pose3& T_submap_before);
+  void enter(const geometry::Pose3& T_submap_before);
 
   /// Those followed long enough, as map::Human entities where they were last seen, by id.
   std::vector<map::Entity> entities() const;

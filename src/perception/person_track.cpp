@@ -1,0 +1,338 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/person_track.hpp"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace prodomos::perception {
+
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Matrix4d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kPi = std::numbers::pi;
+
+constexpr double kAcceleration = 1.5;     ///< m/s², of people who start, stop and turn corners
+constexpr double kWalkingSpeed = 1.0;     ///< m/s, of someone of whom one knows nothing else
+constexpr double kLongestStride = 1.0;    ///< seconds that somebody unseen is believed to go on as before
+constexpr double kTurnRate = 1.5;         ///< rad/s, of a torso
+constexpr double kLeastSpeed = 0.35;      ///< m/s, of who walks ahead rather than shifts
+constexpr double kMostSureOfFront = 3.0;  ///< log-odds
+constexpr base::Duration kLongestGap = std::chrono::milliseconds(1000);
+constexpr int kLeastSightings = 3;
+constexpr double kMostDoubt = 0.1;
+constexpr double kLeastWay = 0.6;        ///< metres, of who must move
+constexpr double kLateralReach = 3.0;    ///< metres that sides are looked at
+constexpr double kBodyRadius = 0.35;     ///< metres; cells nearer are the person's own
+constexpr double kSideDifference = 0.1;  ///< metres, between the clearances of two sides
+
+bool isKnown(const Appearance& appearance) {
+  return std::ranges::any_of(appearance, [](float share) { return share > 0.0F; });
+}
+
+/// Distance along a direction to the first occupied cell.
+double clearance(const map::OccupancyGrid& grid, const Vector2d& from, const Vector2d& direction) {
+  for (double d = kBodyRadius; d < kLateralReach; d += 0.5 * grid.resolution()) {
+    if (grid.state(grid.cellAt(from + d * direction)) == map::CellState::kOccupied) return d;
+  }
+  return kLateralReach;
+}
+
+/// {"joints": [[x, y, z] or null, …]}, millimetres are enough; {} where none was seen.
+std::string attributesOf(const FollowedState& state) {
+  std::string text;
+  bool any = false;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kJointCount); ++i) {
+    const double* joint = &state.joints[3 * i];
+    std::array<char, 96> item{'n', 'u', 'l', 'l', '\0'};
+    if (std::isfinite(joint[0])) {
+      std::snprintf(item.data(), item.size(), "[%.3f, %.3f, %.3f]", joint[0], joint[1], joint[2]);
+      any = true;
+    }
+    text += (i == 0 ? "" : ", ") + std::string(item.data());
+  }
+  return any ? "{\"joints\": [" + text + "]}" : "{}";
+}
+
+geometry::Pose3 poseOf(const FollowedState& state) {
+  return geometry::toPose3({state.position[0], state.position[1], state.heading}, state.position[2]);
+}
+
+FollowedState between(const FollowedState& from, const FollowedState& to, std::int64_t time) {
+  const double share = static_cast<double>(time - from.time) / static_cast<double>(to.time - from.time);
+  FollowedState state = from;
+  state.time = time;
+  for (std::size_t i = 0; i < 3; ++i) state.position[i] += share * (to.position[i] - from.position[i]);
+  for (std::size_t i = 0; i < 2; ++i) state.velocity[i] += share * (to.velocity[i] - from.velocity[i]);
+  const double turn = geometry::normalizeAngle(to.heading - from.heading);
+  state.heading = geometry::normalizeAngle(from.heading + share * turn);
+  state.sureOfFront = std::min(from.sureOfFront, to.sureOfFront);
+  state.joints.fill(std::numeric_limits<double>::quiet_NaN());
+  return state;
+}
+
+}  // namespace
+
+PersonTrack::PersonTrack(base::SubMapId submap, const PersonSighting& sighting)
+    : floor_z_(sighting.position_in_submap.z()),
+      time_(sighting.time),
+      mustMove_(sighting.mustMove),
+      start_(sighting.position_in_submap.head<2>()),
+      firstSeen_(sighting.time) {
+  state_.head<2>() = start_;
+  covariance_.setZero();
+  covariance_.diagonal().head<2>().setConstant(sighting.positionSigma * sighting.positionSigma);
+  covariance_.diagonal().tail<2>().setConstant(kWalkingSpeed * kWalkingSpeed);
+  appearance_ = sighting.appearance;
+  updateHeading(sighting);
+  sightings_ = 1;
+  scores_ = sighting.score;
+  doubt_ = 1.0 - 0.5 * sighting.score;
+  last_ = stateNow(submap, sighting);
+  pending_.push_back(last_);
+  hasChanged = true;
+}
+
+double PersonTrack::metresFrom(const PersonSighting& sighting) const {
+  return (sighting.position_in_submap.head<2>() - position()).norm();
+}
+
+double PersonTrack::distance(const PersonSighting& sighting) const {
+  const Matrix2d spread =
+      covariance_.topLeftCorner<2, 2>() + sighting.positionSigma * sighting.positionSigma * Matrix2d::Identity();
+  const Vector2d off = sighting.position_in_submap.head<2>() - position();
+  return off.dot(spread.inverse() * off);
+}
+
+std::optional<double> PersonTrack::likeness(const Appearance& appearance) const {
+  if (!isKnown(appearance) || !isKnown(appearance_)) return std::nullopt;
+  double common = 0.0;  // Bhattacharyya's coefficient
+  for (std::size_t i = 0; i < appearance.size(); ++i) {
+    common += std::sqrt(static_cast<double>(appearance[i]) * static_cast<double>(appearance_[i]));
+  }
+  return common;
+}
+
+void PersonTrack::predict(base::Time time) {
+  const double dt = base::seconds(time - time_);
+  if (dt <= 0.0) return;
+  // Who was not seen for long stands somewhere, rather than having walked through walls.
+  const double unseen = base::seconds(time - lastSeen());
+  const double stride = std::clamp(kLongestStride - (unseen - dt), 0.0, dt);
+  Matrix4d step = Matrix4d::Identity();
+  step.topRightCorner<2, 2>().diagonal().setConstant(stride);
+  if (unseen > kLongestStride) step.bottomRightCorner<2, 2>().setZero();
+  const double variance = kAcceleration * kAcceleration;
+  Matrix4d noise = Matrix4d::Zero();
+  noise.topLeftCorner<2, 2>().diagonal().setConstant(variance * dt * dt * dt / 3.0);
+  noise.topRightCorner<2, 2>().diagonal().setConstant(variance * dt * dt / 2.0);
+  noise.bottomLeftCorner<2, 2>() = noise.topRightCorner<2, 2>();
+  noise.bottomRightCorner<2, 2>().diagonal().setConstant(variance * dt);
+  state_ = step * state_;
+  covariance_ = step * covariance_ * step.transpose() + noise;
+  headingVariance_ = std::min(headingVariance_ + kTurnRate * kTurnRate * dt * dt, kPi * kPi);
+  time_ = time;
+}
+
+void PersonTrack::update(base::SubMapId submap, const PersonSighting& sighting) {
+  updatePosition(sighting);
+  updateHeading(sighting);
+  if (isKnown(sighting.appearance)) {
+    const float share = isKnown(appearance_) ? 0.1F : 1.0F;
+    for (std::size_t i = 0; i < appearance_.size(); ++i) {
+      appearance_[i] += share * (sighting.appearance[i] - appearance_[i]);
+    }
+  }
+  ++sightings_;
+  scores_ += sighting.score;
+  doubt_ *= 1.0 - 0.5 * sighting.score;
+  mustMove_ = mustMove_ && sighting.mustMove && (position() - start_).norm() < kLeastWay;
+  const FollowedState now = stateNow(submap, sighting);
+  fillGap(now);
+  last_ = now;
+  pending_.push_back(now);
+  hasChanged = true;
+}
+
+void PersonTrack::updatePosition(const PersonSighting& sighting) {
+  floor_z_ = sighting.position_in_submap.z();
+  const double variance = sighting.positionSigma * sighting.positionSigma;
+  const Matrix2d spread = covariance_.topLeftCorner<2, 2>() + variance * Matrix2d::Identity();
+  const Eigen::Matrix<double, 4, 2> gain = covariance_.leftCols<2>() * spread.inverse();
+  state_ += gain * (sighting.position_in_submap.head<2>() - position());
+  Matrix4d rest = Matrix4d::Identity();
+  rest.leftCols<2>() -= gain;
+  // Joseph's form stays symmetric.
+  covariance_ = rest * covariance_ * rest.transpose() + variance * gain * gain.transpose();
+}
+
+void PersonTrack::updateHeading(const PersonSighting& sighting) {
+  if (sighting.heading) mergeHeading(*sighting.heading, sighting.headingSigma, sighting.facing);
+  // Who walks looks ahead.
+  const Vector2d velocity = state_.tail<2>();
+  const double speed = velocity.norm();
+  const double sigma = std::sqrt(0.5 * covariance_.diagonal().tail<2>().sum());
+  if (speed < kLeastSpeed || speed < 2.0 * sigma) return;
+  mergeHeading(std::atan2(velocity.y(), velocity.x()), std::hypot(0.15, sigma / speed), 1.0);
+}
+
+/// The axis that is nearer moves the filter; which end of it is the front is counted apart.
+void PersonTrack::mergeHeading(double heading, double sigma, double facing) {
+  if (!hasHeading_) {
+    hasHeading_ = true;
+    heading_ = heading;
+    headingVariance_ = sigma * sigma;
+    front_ = facing;
+    return;
+  }
+  double turn = geometry::normalizeAngle(heading - heading_);
+  const bool agrees = std::abs(turn) <= kPi / 2.0;
+  if (!agrees) turn = geometry::normalizeAngle(turn + kPi);
+  front_ = std::clamp(front_ + (agrees ? facing : -facing), -kMostSureOfFront, kMostSureOfFront);
+  const double gain = headingVariance_ / (headingVariance_ + sigma * sigma);
+  heading_ = geometry::normalizeAngle(heading_ + gain * turn);
+  headingVariance_ *= 1.0 - gain;
+  if (front_ < 0.0) turnRound();
+}
+
+/// Front and back were mistaken: in what is not written yet, too, as far back as it was doubtful.
+void PersonTrack::turnRound() {
+  heading_ = geometry::normalizeAngle(heading_ + kPi);
+  front_ = -front_;
+  for (auto state = pending_.rbegin(); state != pending_.rend() && state->sureOfFront < kMostSureOfFront - 0.5;
+       ++state) {
+    state->heading = geometry::normalizeAngle(state->heading + kPi);
+  }
+}
+
+void PersonTrack::miss(base::Time time) {
+  if (time - lastSeen() <= kLongestGap) missed_.push_back(base::toNanoseconds(time));
+}
+
+/// Who was seen before and after, and not long between, was there.
+void PersonTrack::fillGap(const FollowedState& now) {
+  if (last_.submap == now.submap && now.time - last_.time <= kLongestGap.count()) {
+    for (const auto time : missed_) pending_.push_back(between(last_, now, time));
+  }
+  missed_.clear();
+}
+
+FollowedState PersonTrack::stateNow(base::SubMapId submap, const PersonSighting& sighting) const {
+  FollowedState now;
+  now.time = base::toNanoseconds(sighting.time);
+  now.submap = submap.value;
+  now.position = {state_.x(), state_.y(), floor_z_};
+  now.heading = heading_;
+  now.sureOfFront = front_;
+  now.velocity = {state_(2), state_(3)};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kJointCount); ++i) {
+    const auto& joint = sighting.joints_in_submap[i];
+    for (std::size_t k = 0; k < 3; ++k) {
+      now.joints[3 * i + k] = joint ? (*joint)(static_cast<Eigen::Index>(k)) : std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return now;
+}
+
+void PersonTrack::lookAround(const map::OccupancyGrid& grid) {
+  const Vector2d left(-std::sin(heading_), std::cos(heading_));
+  const double toLeft = clearance(grid, position(), left);
+  const double toRight = clearance(grid, position(), -left);
+  if (std::abs(toLeft - toRight) < kSideDifference) return;
+  // The last few seconds count.
+  sides_ = 0.9 * sides_ + (toRight < toLeft ? 1.0 : -1.0);
+}
+
+void PersonTrack::enter(const geometry::Pose3& T_submap_before) {
+  const geometry::Pose2 T = geometry::toPose2(T_submap_before);
+  const Eigen::Rotation2Dd turn(T.theta);
+  Matrix4d turns = Matrix4d::Zero();
+  turns.topLeftCorner<2, 2>() = turn.toRotationMatrix();
+  turns.bottomRightCorner<2, 2>() = turn.toRotationMatrix();
+  state_ = turns * state_;
+  state_.head<2>() += Vector2d(T.x, T.y);
+  covariance_ = turns * covariance_ * turns.transpose();
+  start_ = T * start_;
+  floor_z_ += T_submap_before.translation().z();
+  heading_ = geometry::normalizeAngle(heading_ + T.theta);
+}
+
+void PersonTrack::takeOver(PersonTrack&& other) {
+  track = other.track;
+  entityId = other.entityId;
+  firstSeen_ = other.firstSeen_;
+  sightings_ += other.sightings_;
+  pending_.insert(pending_.begin(), other.pending_.begin(), other.pending_.end());
+}
+
+bool PersonTrack::isConvincing() const {
+  if (mustMove_) return false;
+  return sightings_ >= kLeastSightings && doubt_ < 2.0 * kMostDoubt;
+}
+
+map::Entity PersonTrack::entity() const {
+  map::Entity entity{.id = entityId,
+                     .submap = base::SubMapId{last_.submap},
+                     .T_submap_entity = poseOf(last_),
+                     .confidence = 1.0 - doubt_,
+                     .observations = sightings_,
+                     .firstSeen = firstSeen_,
+                     .lastSeen = lastSeen(),
+                     .attributes = map::Human{}};
+  entity.covariance.topLeftCorner<2, 2>() = covariance_.topLeftCorner<2, 2>();
+  entity.covariance(5, 5) = hasHeading_ ? headingVariance_ : kPi * kPi;
+  auto& human = std::get<map::Human>(entity.attributes);
+  human.velocity = {last_.velocity[0], last_.velocity[1], 0.0};
+  human.dominantSide = sides_ == 0.0 ? 0 : (sides_ > 0.0 ? 1 : -1);
+  return entity;
+}
+
+std::vector<map::TrackState> PersonTrack::takeStates() {
+  std::vector<map::TrackState> states;
+  for (const FollowedState& state : std::exchange(pending_, {})) {
+    states.push_back({.time = base::fromNanoseconds(state.time),
+                      .submap = base::SubMapId{state.submap},
+                      .T_submap_thing = poseOf(state),
+                      .velocity_in_submap = Vector3d(state.velocity[0], state.velocity[1], 0.0),
+                      .attributes = attributesOf(state)});
+  }
+  return states;
+}
+
+void PersonTrack::save(base::ByteWriter& out) const {
+  out.append(state_.data(), sizeof(double) * 4);
+  out.append(covariance_.data(), sizeof(double) * 16);
+  out << floor_z_ << base::toNanoseconds(time_) << heading_ << headingVariance_ << front_ << hasHeading_;
+  out.append(appearance_.data(), sizeof appearance_);
+  out << doubt_ << scores_ << sightings_ << mustMove_ << start_.x() << start_.y() << base::toNanoseconds(firstSeen_)
+      << sides_;
+  out.append(&last_, sizeof last_);
+  out << missed_ << pending_ << track.value << entityId.value << hasChanged;
+}
+
+void PersonTrack::load(base::ByteReader& in) {
+  in.take(state_.data(), sizeof(double) * 4);
+  in.take(covariance_.data(), sizeof(double) * 16);
+  std::int64_t time = 0;
+  std::int64_t firstSeen = 0;
+  in >> floor_z_ >> time >> heading_ >> headingVariance_ >> front_ >> hasHeading_;
+  in.take(appearance_.data(), sizeof appearance_);
+  in >> doubt_ >> scores_ >> sightings_ >> mustMove_ >> start_.x() >> start_.y() >> firstSeen >> sides_;
+  in.take(&last_, sizeof last_);
+  in >> missed_ >> pending_ >> track.value >> entityId.value >> hasChanged;
+  time_ = base::fromNanoseconds(time);
+  firstSeen_ = base::fromNanoseconds(firstSeen);
+}
+
+}  // namespace prodomos::perception
