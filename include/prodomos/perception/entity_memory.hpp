@@ -17,22 +17,23 @@
 namespace prodomos::perception {
 
 struct EntityMemoryConfig {
-  double certainty = 2.0;          ///< log-odds from which on a thing is written to the map
-  double doubt = 0.0;              ///< log-odds below which it is given up again
-  double prior = -1.0;             ///< log-odds before anything was seen
-  double correlation = 0.5;        ///< of the errors of two readings taken from one place, 0 … 1
-  double lookSpacing = 0.3;        ///< metres that the robot moves until a reading counts as a new look
-  double positionFloor = 0.05;     ///< metres; no sighting is believed to be better placed
-  double headingFloor = 0.03;      ///< radians, likewise
-  double submapPosition = 0.1;     ///< metres, of one sub-map against another
-  double submapHeading = 0.02;     ///< radians, likewise
-  double doorMiss = 0.7;           ///< log-odds lost where a door should be well seen and is not found
-  double stairsMiss = 0.7;         ///< the same of stairs
-  double stateTrust = 0.75;        ///< that one reading tells the state of a door rightly
-  double stateMemory = 30.0;       ///< seconds in which the state of a door that nobody sees is forgotten
-  double forgetting = 120.0;       ///< seconds after which what was never sure is forgotten
-  double leastDoorWidth = 0.5;     ///< metres
-  double greatestDoorWidth = 3.2;  ///< metres
+  double certainty = 2.0;           ///< log-odds from which on a thing is written to the map
+  double doubt = 0.0;               ///< log-odds below which it is given up again
+  double prior = -1.0;              ///< log-odds before anything was seen
+  double correlation = 0.5;         ///< of the errors of two readings taken from one place, 0 … 1
+  double lookSpacing = 0.3;         ///< metres that the robot moves until a reading counts as a new look
+  double positionFloor = 0.05;      ///< metres; no sighting is believed to be better placed
+  double headingFloor = 0.03;       ///< radians, likewise
+  double submapPosition = 0.1;      ///< metres, of one sub-map against another
+  double submapHeading = 0.02;      ///< radians, likewise
+  double doorMiss = 0.7;            ///< log-odds lost where a door should be well seen and is not found
+  double stairsMiss = 0.7;          ///< the same of stairs
+  double openingAgainstLeaf = 0.2;  ///< log-odds against a leaf, of an opening in which none is seen
+  double stateTrust = 0.75;         ///< that one reading tells the state of a door rightly
+  double stateMemory = 30.0;        ///< seconds in which the state of a door that nobody sees is forgotten
+  double forgetting = 120.0;        ///< seconds after which what was never sure is forgotten
+  double leastDoorWidth = 0.5;      ///< metres
+  double greatestDoorWidth = 3.2;   ///< metres
 };
 
 void describe(base::ConfigVisitor& visitor, EntityMemoryConfig& config);

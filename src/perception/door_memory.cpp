@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perception/door_memory.hpp"
+
+#include "prodomos/geometry/assignment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace prodomos::perception {
+
+namespace {
+
+/// Where a door that is there is found in most images: near enough, not too oblique, whole and hardly hidden.
+constexpr double kWellSeenRange = 4.0;      // metres
+constexpr double kWellSeenObliquity = 1.0;  // radians
+constexpr double kWellSeenShare = 0.9;      // of its spots
+constexpr double kFarthestLook = 6.0;       // metres
+/// Shares of the spots that tell the state.
+constexpr double kLeastKnown = 0.6;
+constexpr double kClearlyThrough = 0.8;
+constexpr double kClearlyFilled = 0.9;
+constexpr double kGreatestSigma = 0.2;  // metres; where a door is known no better, one may look past it
+/// Where there is no wall, there is no door: as bad as so many misses.
+constexpr double kNoWall = 3.0;
+/// A door in the map gives way to one in its place only where that is likelier by so much.
+constexpr double kClearlyLikelier = 1.0;
+
+/// Of a reading that shows an opening and no leaf, or a depth that goes through it: closed, ajar, open.
+constexpr DoorStateFilter::Likelihoods kOpening = {0.1, 0.3, 0.6};
+
+void tellState(DoorLandmark& door, base::Time time, const DoorStateFilter::Likelihoods& likelihoods,
+               const EntityMemoryConfig& config) {
+  const auto before = door.state.state();
+  door.state.update(time, likelihoods, config.stateMemory);
+  door.lastSeen = std::max(door.lastSeen, time);
+  door.hasChanged = true;
+  if (door.state.state() != before) door.tidings.push_back({time, door.state.state()});
+}
+
+void tellState(DoorLandmark& door, const DoorSighting& sighting, const EntityMemoryConfig& config) {
+  if (sighting.door.state != map::DoorState::kUnknown && sighting.door.hasLeaf) {
+    tellState(door, sighting.time, DoorStateFilter::told(sighting.door.state, config.stateTrust), config);
+  } else if (!sighting.door.hasLeaf) {
+    tellState(door, sighting.time, kOpening, config);
+  }
+}
+
+bool isWellSeen(const DoorAppearance& appearance) {
+  return appearance.isWhole && appearance.range < kWellSeenRange && appearance.obliquity < kWellSeenObliquity &&
+         appearance.known() > kWellSeenShare;
+}
+
+double likelihoodToStay(const DoorLandmark& door) {
+  return door.logOdds + (door.id && !door.isRivalled ? kClearlyLikelier : 0.0);
+}
+
+}  // namespace
+
+void DoorMemory::add(const Frames& frames, const Eigen::Vector3d& sensor_in_submap,
+                     std::span<const DoorSighting> doors) {
+  std::vector<DoorSighting> possible;
+  std::ranges::copy_if(doors, std::back_inserter(possible), [this](const auto& d) { return isPossible(d, config_); });
+  const auto landmarkOf = associate(frames, possible);
+  std::vector<std::size_t> touched;
+  for (std::size_t i = 0; i < possible.size(); ++i) {
+    if (!landmarkOf[i]) continue;
+    auto& door = landmarks_[*landmarkOf[i]];
+    auto& look = lookFrom(door.looks, frames.submap(), sensor_in_submap, config_.lookSpacing);
+    fuse(look, possible[i], geometry::yaw(frames.T_submap_other(door.submap) * poseOf(door.pose_in_submap)), config_);
+    door.noteDetection(possible[i].time);
+    tellState(door, possible[i], config_);
+    touched.push_back(*landmarkOf[i]);
+  }
+  update(frames, touched);
+}
+
+void DoorMemory::addFromGrid(const Frames& frames, std::span<const DoorSighting> doorways) {
+  std::vector<DoorSighting> possible;
+  std::ranges::copy_if(doorways, std::back_inserter(possible),
+                       [this](const auto& d) { return isPossible(d, config_); });
+  const auto landmarkOf = associate(frames, possible);
+  std::vector<std::size_t> touched;
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    auto& looks = landmarks_[i].looks;
+    const auto look =
+        std::ranges::find_if(looks, [&](const auto& l) { return l.ofGrid && l.submap == frames.submap(); });
+    if (look == looks.end() || std::ranges::find(landmarkOf, i) != landmarkOf.end()) continue;
+    look->misses = 1;
+    look->evidence = look->sightings > 0 ? -look->evidence / look->sightings : look->evidence;
+    look->sightings = 0;
+    touched.push_back(i);
+  }
+  for (std::size_t i = 0; i < possible.size(); ++i) {
+    if (!landmarkOf[i]) continue;
+    auto& door = landmarks_[*landmarkOf[i]];
+    auto& look = lookOfGrid(door.looks, frames.submap());
+    look = DoorLook{};  // the grid's last word
+    look.submap = frames.submap();
+    look.ofGrid = true;
+    fuse(look, possible[i], geometry::yaw(frames.T_submap_other(door.submap) * poseOf(door.pose_in_submap)), config_);
+    door.noteDetection(possible[i].time);
+    touched.push_back(*landmarkOf[i]);
+  }
+  update(frames, touched);
+  mergeAll(frames);
+}
+
+std::vector<std::optional<std::size_t>> DoorMemory::associate(const Frames& frames,
+                                                              std::span<const DoorSighting> doors) {
+  std::vector<DoorPlace> places;
+  for (const auto& door : landmarks_) places.push_back(placeOf(door, frames, config_));
+  Eigen::MatrixXd costs(doors.size(), places.size());
+  for (std::size_t i = 0; i < doors.size(); ++i) {
+    for (std::size_t j = 0; j < places.size(); ++j) {
+      costs(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          distanceOfSame(places[j], placeOf(doors[i]), config_).value_or(geometry::kForbidden);
+    }
+  }
+  const auto assigned = geometry::assign(costs);
+  std::vector<std::optional<std::size_t>> landmarkOf(doors.size());
+  for (std::size_t i = 0; i < doors.size(); ++i) {
+    if (assigned[i]) {
+      landmarkOf[i] = static_cast<std::size_t>(*assigned[i]);
+      continue;
+    }
+    // Two detectors may find one door: the second sighting says nothing new.
+    if (costs.cols() > 0 && std::isfinite(costs.row(static_cast<Eigen::Index>(i)).minCoeff())) continue;
+    landmarkOf[i] = landmarks_.size();
+    auto& door = landmarks_.emplace_back();
+    door.submap = frames.submap();
+    door.pose_in_submap = vectorOf(doors[i].T_submap_door);
+  }
+  return landmarkOf;
+}
+
+void DoorMemory::update(const Frames& frames, std::vector<std::size_t> touched) {
+  for (const auto i : touched) {
+    if (std::ranges::any_of(landmarks_[i].looks, [](const auto& look) { return look.sightings > 0; })) {
+      refresh(landmarks_[i], frames, config_);
+    } else {
+      landmarks_[i].logOdds = logOddsOf(landmarks_[i].looks, config_);
+    }
+  }
+  for (const auto i : touched) {
+    for (std::size_t j = 0; j < landmarks_.size(); ++j) mergeIfSame(i, j, frames);
+  }
+  for (const auto i : touched) settleRivals(i, frames);
+  prune();
+  if (lastSubmap_ != frames.submap()) mergeAll(frames);
+  lastSubmap_ = frames.submap();
+}
+
+bool DoorMemory::mergeIfSame(std::size_t i, std::size_t j, const Frames& frames) {
+  auto* kept = &landmarks_[i];
+  auto* other = &landmarks_[j];
+  if (i == j || kept->looks.empty() || other->looks.empty()) return false;
+  if (!distanceOfSame(placeOf(*kept, frames, config_), placeOf(*other, frames, config_), config_)) return false;
+  if (isOlder(*other, *kept)) std::swap(kept, other);
+  if (other->isTold) merged_.push_back(*other->id);
+  takeOver(*kept, *other, frames);
+  other->looks.clear();
+  refresh(*kept, frames, config_);
+  return true;
+}
+
+void DoorMemory::mergeAll(const Frames& frames) {
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    for (std::size_t j = i + 1; j < landmarks_.size(); ++j) {
+      if (mergeIfSame(i, j, frames)) settleRivals(landmarks_[i].looks.empty() ? j : i, frames);
+    }
+  }
+  prune();
+}
+
+void DoorMemory::settleRivals(std::size_t door, const Frames& frames) {
+  if (landmarks_[door].looks.empty()) return;
+  std::vector<std::size_t> together{door};
+  const auto place = placeOf(landmarks_[door], frames, config_);
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    if (i == door || landmarks_[i].looks.empty()) continue;
+    if (standInOnePlace(place, placeOf(landmarks_[i], frames, config_))) together.push_back(i);
+  }
+  const auto best =
+      std::ranges::max_element(together, {}, [this](std::size_t i) { return likelihoodToStay(landmarks_[i]); });
+  for (const auto i : together) landmarks_[i].isRivalled = i != *best;
+}
+
+void DoorMemory::prune() {
+  std::erase_if(landmarks_, [](const DoorLandmark& door) { return door.looks.empty(); });
+}
+
+void DoorMemory::look(const Frames& frames, const RgbdView& view, const Surfaces& surfaces) {
+  const Eigen::Vector3d camera = view.T_submap_camera.translation();
+  if (!geometry::isFinite(view.T_submap_camera) || surfaces.depth.known() == 0) return;
+  for (auto& door : landmarks_) {
+    const Eigen::Vector3d middle = frames.T_submap_other(door.submap) * door.pose_in_submap.head<3>();
+    if ((middle - camera).head<2>().norm() < kFarthestLook) see(door, frames, view, surfaces);
+  }
+}
+
+void DoorMemory::see(DoorLandmark& door, const Frames& frames, const RgbdView& view, const Surfaces& surfaces) const {
+  const auto place = placeOf(door, frames, config_);
+  if (place.covariance.topLeftCorner<2, 2>().trace() > kGreatestSigma * kGreatestSigma) return;
+  const auto appearance = appearanceOf(poseOf(place.pose), door.width, door.height, view, surfaces);
+  const bool isDetected = door.lastDetected == view.time;
+  if (appearance.known() >= kLeastKnown && !isDetected) {
+    if (appearance.through >= kClearlyThrough && !appearance.hasNoWall) tellState(door, view.time, kOpening, config_);
+    if (appearance.filled >= kClearlyFilled) {
+      tellState(door, view.time, DoorStateFilter::told(map::DoorState::kClosed, config_.stateTrust), config_);
+    }
+  }
+  const bool isRefuted = appearance.hasNoWall && appearance.through >= kClearlyThrough;
+  if (isDetected || !(isRefuted || isWellSeen(appearance))) return;
+  auto& look = lookFrom(door.looks, frames.submap(), view.T_submap_camera.translation(), config_.lookSpacing);
+  look.evidence -= config_.doorMiss * (isRefuted ? kNoWall : 1.0);
+  ++look.misses;
+  door.logOdds = logOddsOf(door.looks, config_);
+  door.hasChanged = true;
+}
+
+}  // namespace prodomos::perception
