@@ -16,7 +16,8 @@ constexpr double kLeastWidth = 0.55;
 constexpr double kMostWidth = 2.3;
 constexpr double kWidestLeaf = 1.35;
 constexpr double kUsualHeight = 2.0;
-constexpr double kFrame = 0.1;  // metres, more than boards of frames are wide
+constexpr double kFrame = 0.1;         // metres, more than boards of frames are wide
+constexpr double kFrameDepth = 0.012;  // by which they usually stand out of the wall: too little to be measured
 
 double median(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -123,6 +124,7 @@ class Examination {
     lookAtTop();
     if (!lookAtJambs()) return std::nullopt;
     if (width > kWidestLeaf && !hasMiddleLine(lines)) return std::nullopt;
+    lookBesideJambs(lines);
     lookAtFoot();
     lookAtLeaf();
     lookAtSurroundings();
@@ -149,6 +151,7 @@ class Examination {
   void lookAtTop();
   bool lookAtJambs();
   bool hasMiddleLine(const std::vector<UprightLine>& lines);
+  void lookBesideJambs(const std::vector<UprightLine>& lines);
   void lookAtFoot();
   void lookAtLeaf();
   void lookAtSurroundings();
@@ -225,7 +228,7 @@ void Examination::place() {
     found_.cue(Cue::kRecessed) = std::clamp(deeper / (0.01 + doubt) - 0.5, 0.0, 3.0);
   }
   const auto trueX = [&](double x, bool hides) {
-    return x / wall_.shrinkage(hides ? std::min(found_.leaf_y, surround_y_) : found_.leaf_y);
+    return x / wall_.shrinkage(hides ? std::min(found_.leaf_y, surround_y_) - kFrameDepth : found_.leaf_y);
   };
   const double left_x = wall_.xOf(found_.leftLine.columnAt(wall_.rowOf(1.0)));
   const double right_x = wall_.xOf(found_.rightLine.columnAt(wall_.rowOf(1.0)));
@@ -312,6 +315,24 @@ bool Examination::hasMiddleLine(const std::vector<UprightLine>& lines) {
   });
   if (found) found_.leaves = 2;
   return found;
+}
+
+/// A frame has an edge on its inner and one on its outer side.
+void Examination::lookBesideJambs(const std::vector<UprightLine>& lines) {
+  const double near = 0.025 / RectifiedWall::kPixel;
+  const double far = 0.11 / RectifiedWall::kPixel;
+  const int top = leafRow(height_ - 0.1);
+  const int bottom = leafRow(0.1);
+  const auto strongest = [&](const UprightLine& jamb, double direction) {
+    double most = 0.0;
+    for (const auto& line : lines) {
+      const double aside = direction * (line.columnAt(jamb.middleRow) - jamb.column);
+      if (aside > near && aside < far) most = std::max(most, edges_.support(line, top, bottom));
+    }
+    return most;
+  };
+  found_.cue(Cue::kLineInside) = strongest(found_.leftLine, 1.0) + strongest(found_.rightLine, -1.0);
+  found_.cue(Cue::kLineOutside) = strongest(found_.leftLine, -1.0) + strongest(found_.rightLine, 1.0);
 }
 
 void Examination::lookAtFoot() {

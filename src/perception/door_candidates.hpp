@@ -37,6 +37,8 @@ enum class Cue : std::uint8_t {
   kLow,            ///< its top is lower than doors are
   kHigh,           ///< higher
   kCut,            ///< share of its outline that is not seen
+  kLineInside,     ///< share of a further line just inside of the jambs: these may be the frame's outer edges
+  kLineOutside,    ///< share of one just outside of both: as of a frame
   kCount,
 };
 using Cues = std::array<double, static_cast<std::size_t>(Cue::kCount)>;

@@ -4,6 +4,8 @@
 
 #include "perception/door_candidates.hpp"
 #include "perception/door_handle.hpp"
+#include "perception/door_picture.hpp"
+#include "perception/door_points.hpp"
 #include "perception/door_segments.hpp"
 #include "perception/door_verdict.hpp"
 #include "perception/rectified_wall.hpp"
@@ -11,7 +13,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <string_view>
+#include <utility>
 
 namespace prodomos::perception {
 
@@ -66,17 +70,54 @@ DoorSighting sightingOf(const RgbdView& view, const RectifiedWall& wall, const D
 }
 
 /// Of doors that overlap in a wall, the one that has most evidence.
-std::vector<DoorSighting> strongest(std::vector<DoorSighting> sightings) {
+void keepStrongest(std::vector<Judged>& pairs) {
+  std::ranges::stable_sort(pairs, std::greater{}, &Judged::evidence);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (!pairs[i].accepted) continue;
+    for (std::size_t j = i + 1; j < pairs.size(); ++j) {
+      const DoorCandidate& a = pairs[i].candidate;
+      const DoorCandidate& b = pairs[j].candidate;
+      const double common = std::min(a.right_x, b.right_x) - std::max(a.left_x, b.left_x);
+      if (!pairs[j].accepted || common < 0.1) continue;
+      pairs[j].accepted = false;
+      pairs[j].word = "less likely";
+    }
+  }
+}
+
+/// The same door may be found in two walls where a patch was split.
+void dropDoubles(std::vector<DoorSighting>& sightings) {
   std::ranges::stable_sort(sightings, std::greater{}, &DoorSighting::evidence);
   std::vector<DoorSighting> kept;
   for (const auto& sighting : sightings) {
-    const auto overlaps = [&](const DoorSighting& other) {
+    const bool isKnown = std::ranges::any_of(kept, [&](const DoorSighting& other) {
       const Vector3d between = other.T_submap_door.inverse() * sighting.T_submap_door.translation();
       return between.head<2>().norm() < 0.45 * (sighting.door.width + other.door.width);
-    };
-    if (std::ranges::none_of(kept, overlaps)) kept.push_back(sighting);
+    });
+    if (!isKnown) kept.push_back(sighting);
   }
-  return kept;
+  sightings = std::move(kept);
+}
+
+std::vector<Judged> judgeByPoints(const RectifiedWall& wall, const std::vector<cv::Point2f>& points) {
+  std::vector<Judged> pairs;
+  for (auto& candidate : pairPoints(wall, groupsOf(wall, points))) {
+    candidate.handle = countPoints(wall, candidate, points);
+    pairs.push_back({candidate, 0.0, true, {}});
+  }
+  return pairs;
+}
+
+std::vector<Judged> judgeByLines(const RectifiedWall& wall, const WallEdges& edges,
+                                 const std::vector<UprightLine>& lines, double leastEvidence) {
+  std::vector<Judged> pairs;
+  for (const auto& candidate : pairLines(wall, edges, lines)) {
+    const double evidence = evidenceOf(candidate);
+    const bool accepted = evidence > leastEvidence;
+    pairs.push_back({candidate, evidence, accepted, accepted ? "" : std::string(weakestPoint(candidate))});
+  }
+  keepStrongest(pairs);
+  return pairs;
 }
 
 }  // namespace
@@ -97,21 +138,31 @@ void describe(base::ConfigVisitor& visitor, DoorDetectorConfig& config) {
 std::vector<DoorSighting> findDoors(const RgbdView& view, const Surfaces& surfaces, const DoorDetectorConfig& config,
                                     DebugImages* debug) {
   std::vector<DoorSighting> sightings;
-  (void)debug;
   if (!config.enabled || !isUsable(view, surfaces)) return sightings;
+  const bool byPoints = config.method == static_cast<int>(DoorMethod::kPaper);
+  const bool draws = debug != nullptr && debug->isWanted();
   auto walls = findWalls(view, surfaces);
   walls.resize(std::min(walls.size(), kMostWalls), Wall{});
-  for (const Wall& seen : walls) {
-    const RectifiedWall wall(view, surfaces, seen, config.reach);
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const RectifiedWall wall(view, surfaces, walls[i], config.reach);
     if (wall.empty()) continue;
-    const WallEdges edges(wall, config.edgeContrast);
-    for (auto& candidate : pairLines(wall, edges, edges.uprightLines(config.tilt))) {
-      const double evidence = evidenceOf(candidate);
-      if (evidence < config.leastEvidence) continue;
-      sightings.push_back(sightingOf(view, wall, candidate, evidence));
+    const auto points = byPoints || draws ? salientPoints(wall) : std::vector<cv::Point2f>{};
+    std::vector<UprightLine> lines;
+    std::vector<Judged> pairs;
+    if (byPoints) {
+      pairs = judgeByPoints(wall, points);
+    } else {
+      const WallEdges edges(wall, config.edgeContrast);
+      lines = edges.uprightLines(config.tilt);
+      pairs = judgeByLines(wall, edges, lines, config.leastEvidence);
     }
+    for (const auto& judged : pairs) {
+      if (judged.accepted) sightings.push_back(sightingOf(view, wall, judged.candidate, judged.evidence));
+    }
+    if (draws) debug->add("doors_wall_" + std::to_string(i), drawVerdict(wall, points, lines, pairs));
   }
-  return strongest(std::move(sightings));
+  dropDoubles(sightings);
+  return sightings;
 }
 
 }  // namespace prodomos::perception

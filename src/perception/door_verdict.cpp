@@ -21,7 +21,7 @@ constexpr std::array<CueWeight, static_cast<std::size_t>(Cue::kCount)> kWeights{
     {"uniform", 7.05},     {"clutter", -6.47},      {"leaf at jambs", -1.49}, {"flat", 3.25},
     {"turned", 0.18},      {"stands out", -2.35},   {"recessed", 0.98},       {"nothing around", -15.45},
     {"handle", 0.32},      {"narrow", -4.05},       {"wide", -3.15},          {"low", -2.25},
-    {"high", 0.65},        {"cut", -0.90},
+    {"high", 0.65},        {"cut", -0.90},          {"line inside", 0.0},     {"line outside", 0.0},
 }};
 
 }  // namespace
