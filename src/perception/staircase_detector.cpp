@@ -6,6 +6,7 @@
 
 #include "perception/staircase_drawing.hpp"
 #include "perception/staircase_lattice.hpp"
+#include "perception/staircase_sighting.hpp"
 #include "perception/staircase_steps.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -33,6 +34,7 @@ constexpr double kTreadDepth = 0.55;      // metres; level patches that are broa
 constexpr double kFloorSkin = 0.03;       // metres
 constexpr double kUpright = 1.05;         // radians of tilt: 60 degrees and more
 constexpr double kLevel = 0.40;           // radians: 23 degrees; low, short treads are measured up to 19 off level
+constexpr double kMostRoughness = 0.6;    // of steps against the slope
 constexpr double kBeside = 0.4;           // metres: what belongs to a flight that was found
 constexpr double kBelow = 0.5;
 constexpr double kRails = 1.4;
@@ -86,7 +88,7 @@ Material materialOf(const RgbdView& view, const Surfaces& surfaces) {
     if (isVoxel) ++voxel;
     const sensors::DepthGrid::Cell& cell = cellOf(grid, i);
     if (isOther[i] || !(cell.depth > 0.0F)) continue;
-    const StairCell stairCell{i, view.T_submap_camera * pointOf(cell),
+    const StairCell stairCell{view.T_submap_camera * pointOf(cell),
                               sensors::depthSigma(static_cast<double>(cell.depth))};
     if (std::abs(stairCell.point_in_submap.z() - surfaces.floor_z) < kFloorSkin) continue;
     material.cells.push_back(stairCell);
@@ -206,9 +208,15 @@ std::optional<StaircaseSighting> flightOn(const Plane& slope, const std::vector<
   const Pose3 T_submap_slope = flightFrame(slope, slab);
   const double rise = slope.normal.head<2>().norm() / slope.normal.z();
   const std::optional<FoundLattice> found = findLattice(inFrame(T_submap_slope, slab), rise);
-  if (!found) return std::nullopt;
+  if (!found || found->roughness > kMostRoughness) return std::nullopt;
   const Pose3 T_submap_flight = T_submap_slope * geometry::fromYawPitchRoll({0.0, 0.0, 0.0}, found->turn, 0.0, 0.0);
-  return confirmSteps(view, surfaces, material.cells, *found, T_submap_flight);
+  const ProfileCheck check(view.T_submap_camera, surfaces.depth, found->lattice, T_submap_flight);
+  const std::optional<FlightSteps> steps = findSteps(material.cells, found->lattice, T_submap_flight, check);
+  if (!steps) return std::nullopt;
+  if (getenv("Q"))
+    fprintf(stderr, "Q %.3f %d+%d rough %.2f n %zu\n", steps->count.share(), steps->count.there, steps->count.other,
+            found->roughness, steps->steps.size());
+  return sightingOf(view, surfaces, *found, T_submap_flight, *steps, check);
 }
 
 }  // namespace

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "prodomos/perception/sightings.hpp"
 #include "prodomos/perception/surfaces.hpp"
 
 #include "perception/staircase_lattice.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -15,15 +15,60 @@ namespace prodomos::perception {
 
 /// A cell of the depth grid that may show a step.
 struct StairCell {
-  std::uint32_t cell = 0;
   Eigen::Vector3d point_in_submap = Eigen::Vector3d::Zero();
-  double sigma = 0.0;  ///< metres
+  double sigma = 0.0;  ///< of its depth, metres
 };
 
-/// The flight that a lattice tells of, `T_submap_flight` its frame, once its steps are found one by one: enough of them
-/// in a row, each as wide as a step, at its place, and all of one size.
-std::optional<StaircaseSighting> confirmSteps(const RgbdView& view, const Surfaces& surfaces,
-                                              std::span<const StairCell> cells, const FoundLattice& found,
-                                              const geometry::Pose3& T_submap_flight);
+/// Looks at spots of a lattice's profile whether the view shows it there.
+class ProfileCheck {
+ public:
+  ProfileCheck(const geometry::Pose3& T_submap_camera, const sensors::DepthGrid& grid, const StepLattice& lattice,
+               const geometry::Pose3& T_submap_flight);
+
+  /// Spots that face the camera and that nothing far nearer hides.
+  struct Count {
+    int there = 0;
+    int other = 0;  ///< one looks through where it should be, or something else is in its place
+
+    int asked() const { return there + other; }
+    double share() const { return asked() > 0 ? static_cast<double>(there) / asked() : 0.0; }
+    Count& operator+=(const Count& count);
+  };
+
+  Count riser(int step, double y) const;
+  Count tread(int step, double y) const;
+  /// Measured depth less expected one, metres; none where depth is not known.
+  std::optional<double> depthBehind(const Eigen::Vector3d& point_in_flight) const;
+
+ private:
+  Count at(const Eigen::Vector3d& point_in_flight, StepPart part, int step) const;
+
+  const sensors::DepthGrid& grid_;
+  StepLattice lattice_;
+  geometry::Pose3 T_camera_flight_;
+  geometry::Pose3 T_flight_camera_;
+};
+
+/// What was seen of one step, in the flight's frame.
+struct SeenStep {
+  int index = 0;
+  std::size_t riserCells = 0;
+  std::size_t treadCells = 0;
+  double least = 0.0;  ///< y of its right end
+  double most = 0.0;   ///< y of its left end
+  double sigma = 0.0;  ///< of a cell's depth, the mean
+};
+
+/// Steps one above the other, upwards.
+struct FlightSteps {
+  std::vector<SeenStep> steps;
+  std::vector<Eigen::Vector3d> points_in_flight;
+  ProfileCheck::Count count;
+};
+
+/// The steps of a lattice one by one: enough of them in a row, each at its place and as wide as a step, with nothing
+/// but a step, a floor or what is hidden before the first and after the last.
+std::optional<FlightSteps> findSteps(std::span<const StairCell> cells, const StepLattice& lattice,
+                                     const geometry::Pose3& T_submap_flight, const ProfileCheck& check);
 
 }  // namespace prodomos::perception
