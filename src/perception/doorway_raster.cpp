@@ -13,8 +13,9 @@ using map::CellState;
 namespace {
 
 constexpr double kQuarter = 0.5 * std::numbers::pi;
-constexpr int kLeastWallCells = 30;       // a direction that explains fewer cells is chance
-constexpr double kLeastWallLength = 0.5;  // metres
+constexpr std::size_t kLeastWallCells = 30;  // a direction that explains fewer cells is chance
+constexpr std::size_t kLeastShare = 20;      // … or less than one in so many
+constexpr double kLeastWallLength = 0.5;     // metres
 
 using Points = std::vector<Eigen::Vector2d>;
 
@@ -103,21 +104,21 @@ bool isInWall(const Raster& raster, const Eigen::Vector2d& cell, bool alongRows)
 
 }  // namespace
 
-std::vector<double> wallDirections(const map::OccupancyGrid& grid, std::size_t most) {
-  std::vector<double> directions;
+std::vector<Raster> rastersAlongWalls(const map::OccupancyGrid& grid, std::size_t most) {
+  std::vector<Raster> rasters;
   Points left = occupiedCells(grid);
-  while (directions.size() < most && static_cast<int>(left.size()) >= kLeastWallCells) {
-    const double direction = mainDirection(left, grid.resolution());
-    const Raster raster(grid, direction);
+  const std::size_t least = std::max(kLeastWallCells, left.size() / kLeastShare);
+  while (rasters.size() < most && left.size() >= least) {
+    Raster raster(grid, mainDirection(left, grid.resolution()));
     const auto before = left.size();
     std::erase_if(left, [&](const Eigen::Vector2d& point) {
       const Eigen::Vector2d cell = raster.inRaster(point);
       return isInWall(raster, cell, true) || isInWall(raster, cell, false);
     });
-    if (before - left.size() < kLeastWallCells) break;
-    directions.push_back(direction);
+    if (before - left.size() < least) break;
+    rasters.push_back(std::move(raster));
   }
-  return directions;
+  return rasters;
 }
 
 Raster::Raster(const map::OccupancyGrid& grid, double direction)
@@ -141,9 +142,35 @@ Raster::Raster(const map::OccupancyGrid& grid, double direction)
   width_ = static_cast<int>((most.x() - least.x()) / step_) + 2;
   height_ = static_cast<int>((most.y() - least.y()) / step_) + 2;
   states_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  // In 1/65536 of a cell: no division for each of some hundred thousand cells.
+  constexpr double kFraction = 65536.0;
+  const auto fixed = [&](double cells) { return static_cast<std::int64_t>(std::floor(cells * kFraction)); };
+  const std::int64_t stepX = fixed(along_.x());
+  const std::int64_t stepY = fixed(along_.y());
   for (int v = 0; v < height_; ++v) {
-    for (int u = 0; u < width_; ++u) states_[index(u, v)] = grid.state(grid.cellAt(inSubmap(u, v)));
+    const Eigen::Vector2d first = inSubmap(0.0, v) / step_;
+    std::int64_t x = fixed(first.x());
+    std::int64_t y = fixed(first.y());
+    for (int u = 0; u < width_; ++u, x += stepX, y += stepY) {
+      states_[index(u, v)] = grid.state({static_cast<int>(x >> 16), static_cast<int>(y >> 16)});
+    }
   }
+}
+
+Raster Raster::turned() const {
+  Raster turned;
+  turned.direction_ = direction_ + kQuarter;
+  turned.step_ = step_;
+  turned.along_ = across_;
+  turned.across_ = -along_;
+  turned.origin_ = inSubmap(width_ - 1, 0);
+  turned.width_ = height_;
+  turned.height_ = width_;
+  turned.states_.resize(states_.size());
+  for (int v = 0; v < height_; ++v) {
+    for (int u = 0; u < width_; ++u) turned.states_[turned.index(v, width_ - 1 - u)] = states_[index(u, v)];
+  }
+  return turned;
 }
 
 }  // namespace prodomos::perception::doorways

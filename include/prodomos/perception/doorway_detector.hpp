@@ -13,18 +13,18 @@ namespace prodomos::perception {
 struct DoorwayDetectorConfig {
   bool enabled = true;
   double leastWidth = 0.6;     ///< metres between the jambs
-  double mostWidth = 2.6;      ///< metres; wider gaps are parts of one room
+  double mostWidth = 4.0;      ///< metres; wider openings, up to that, are passages between corridors and halls
   double mostThickness = 0.4;  ///< metres, of the wall; deeper ones are corridors
-  double leastWall = 0.5;      ///< metres of wall beside each jamb; less is furniture, a pillar or a person
+  double leastWall = 0.5;      ///< metres of wall beside the jambs; less is furniture or a person
   double leastSpace = 0.6;     ///< metres of free floor before and behind; less is a niche or a cupboard
   double leastDetour = 3.0;    ///< metres; what one can go around on a shorter way is a gap between furniture
 };
 
 void describe(base::ConfigVisitor& visitor, DoorwayDetectorConfig& config);
 
-/// Gaps of door width between collinear walls of a grid, as a level laser shows them: open doors and doorways, which a
-/// laser cannot tell apart (hasLeaf false). The normal points away from `observer_in_submap`. Time and range are those
-/// of the caller.
+/// Narrows between two jambs of a grid's walls, as a level laser shows them: open doors and doorways, which a laser
+/// cannot tell apart (hasLeaf false). The normal points away from `observer_in_submap`; z is 0. Time and range are
+/// those of the caller. Looks at the same grid are not independent of each other.
 std::vector<DoorSighting> findDoorways(const map::OccupancyGrid& grid, const Eigen::Vector2d& observer_in_submap,
                                        const DoorwayDetectorConfig& config);
 
