@@ -19,7 +19,9 @@ namespace prodomos::perception {
 
 namespace {
 
-constexpr double kSamePerson = 0.45;    ///< IoU of boxes
+constexpr double kSamePerson = 0.45;  ///< IoU of boxes
+/// Scores above this share of the least are told, too: not enough for someone new, but for someone who is followed.
+constexpr double kDoubtful = 0.5;
 constexpr double kPersonalSpace = 0.4;  ///< metres between middles: no two bodies are nearer
 
 double overlap(const cv::Rect2d& a, const cv::Rect2d& b) {
@@ -117,7 +119,7 @@ class PersonDetector::Implementation {
     std::vector<PicturedPerson> people;
     if (!boxes_ || picture.empty()) return people;
     for (const auto& box : united(boxes_->byBody(picture), boxes_->byClass(picture))) {
-      if (box.score < config_.leastScore) continue;
+      if (box.score < kDoubtful * config_.leastScore) continue;
       people.push_back({box, joints_->find(picture, box.box), nullptr});
     }
     return people;

@@ -17,23 +17,25 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int kHeadTop = 0;
-constexpr int kNeck = 1;
-constexpr int kRightShoulder = 2;
-constexpr int kLeftShoulder = 5;
-constexpr int kRightHip = 8;
-constexpr int kLeftHip = 11;
+constexpr std::size_t kRightShoulder = 2;
+constexpr std::size_t kLeftShoulder = 5;
+constexpr std::size_t kRightHip = 8;
+constexpr std::size_t kLeftHip = 11;
 
 constexpr double kLeastHeight = 0.9;  ///< metres, of who may sit
 constexpr double kMostHeight = 2.3;
 constexpr double kReach = 0.45;     ///< metres from the torso, of arms and legs
 constexpr double kTorsoTop = 0.30;  ///< metres below the top of the head
 constexpr double kTorsoEnd = 0.80;
+constexpr double kHeadTopEnd = 0.03;
 constexpr double kHeadEnd = 0.24;
-constexpr double kShoulders = 0.36;      ///< metres between the joints
-constexpr double kHalfThickness = 0.10;  ///< of a torso: the middle lies so far behind the surface that is seen
+constexpr double kHalfHead = 0.2;
+constexpr double kShoulders = 0.34;      ///< metres between the joints
+constexpr double kHips = 0.16;           ///< metres between the joints, as networks see them
+constexpr double kHalfThickness = 0.10;  ///< of a torso seen from front or back: its middle lies so far behind
+constexpr double kHalfWidthMore = 0.05;  ///< the same seen from the side, more than that
 constexpr double kFlesh = 0.06;          ///< before a joint
-constexpr double kLeastJointScore = 0.15;
+constexpr double kLeastJointScore = 0.1;
 constexpr std::size_t kLeastSamples = 40;
 
 struct Sample {
@@ -194,6 +196,130 @@ std::optional<Vector3d> jointIn(const UprightView& view, const Body& body, const
   return view.pointAt(joint.pixel, median(depths) + kFlesh);
 }
 
+/// Which way a torso looks, as the camera sees it.
+struct Facing {
+  double angle = 0.0;  ///< of the torso's axis from the direction to the camera, within a quarter turn, radians
+  double sigma = 0.0;
+  double across = 0.0;    ///< 1: its shoulders lie across the view, 0: behind each other
+  double toCamera = 0.0;  ///< log-odds of its front against its back
+};
+
+/// Metres from the right joint to the left one, across the view (to the camera's left) and away from it.
+struct Span {
+  double left = 0.0;
+  std::optional<double> away;  ///< none where depth does not tell
+};
+
+std::optional<Span> spanOf(const UprightView& view, const Body& body, const PicturedPerson& person,
+                           const PersonSighting& sighting, std::size_t right, std::size_t left) {
+  const ImageJoint& from = (*person.joints)[right];
+  const ImageJoint& to = (*person.joints)[left];
+  if (!isSeen(from) || !isSeen(to)) return std::nullopt;
+  const Vector2d camera = view.camera_in_submap().head<2>();
+  const double range = (body.middle - camera).norm();
+  const auto acrossOf = [&](const ImageJoint& joint) {
+    const Vector2d ray = view.pointAt(joint.pixel, 1.0).head<2>() - camera;
+    return body.left.dot(ray) * range / body.away.dot(ray);
+  };
+  Span span{acrossOf(to) - acrossOf(from), std::nullopt};
+  const auto& fromPoint = sighting.joints_in_submap[right];
+  const auto& toPoint = sighting.joints_in_submap[left];
+  if (fromPoint && toPoint) span.away = body.away.dot((*toPoint - *fromPoint).head<2>());
+  return span;
+}
+
+/// Share of the head's pixels that have a colour of skin (Chai and Ngan 1999); none where too little of it is seen.
+std::optional<double> skinOfHead(const UprightView& view, const Body& body) {
+  if (!body.topIsSeen) return std::nullopt;
+  int head = 0;
+  int skin = 0;
+  for (const Sample& sample : body.samples) {
+    const double below = body.top_z - sample.point_in_submap.z();
+    const double beside = body.left.dot(sample.point_in_submap.head<2>() - body.middle);
+    if (below < kHeadTopEnd || below > kHeadEnd || std::abs(beside) > kHalfHead) continue;
+    const auto& bgr = view.picture().at<cv::Vec3b>(sample.pixel);
+    const double luma = 0.114 * bgr[0] + 0.587 * bgr[1] + 0.299 * bgr[2];
+    const double cr = 128.0 + 0.713 * (bgr[2] - luma);
+    const double cb = 128.0 + 0.564 * (bgr[0] - luma);
+    ++head;
+    if (cr > 133.0 && cr < 180.0 && cb > 77.0 && cb < 127.0) ++skin;
+  }
+  if (head < 15) return std::nullopt;
+  return static_cast<double>(skin) / head;
+}
+
+/// The network knows fronts better than backs: of these, it is less sure of the shoulders. Heads without any skin are
+/// seen from behind; brown hair may look like skin, so that much of it says little.
+double frontEvidence(const UprightView& view, const Body& body, const ImageJoints& joints, const Span& shoulders) {
+  constexpr double kEven = 0.265;  // mean score of shoulders that speaks for neither
+  constexpr double kSteep = 40.0;
+  const double score = 0.5 * (joints[kRightShoulder].score + joints[kLeftShoulder].score);
+  double evidence = std::clamp(kSteep * (score - kEven), -2.5, 2.5);
+  // Shoulders that lie as those of who faces the camera may be a back's all the same, others hardly a front's.
+  evidence += std::clamp(8.0 * (-shoulders.left - 0.24), -1.5, 1.0);
+  const auto skin = skinOfHead(view, body);
+  if (skin && *skin < 0.2) evidence -= 1.5;
+  if (skin && *skin > 0.5) evidence += 0.3;
+  return evidence;
+}
+
+/// From the shoulders, and from the hips where the network sees shoulders too close to each other. Right and left are
+/// not believed: it exchanges them on backs.
+std::optional<Facing> facingOf(const UprightView& view, const Body& body, const PicturedPerson& person,
+                               const PersonSighting& sighting) {
+  const auto shoulders = spanOf(view, body, person, sighting, kRightShoulder, kLeftShoulder);
+  if (!shoulders) return std::nullopt;
+  const auto hips = spanOf(view, body, person, sighting, kRightHip, kLeftHip);
+  Facing facing;
+  facing.across = std::abs(shoulders->left) / kShoulders;
+  if (hips) facing.across = std::max(facing.across, std::abs(hips->left) / kHips);
+  facing.across = std::min(facing.across, 1.0);
+  // Who faces the camera has the left shoulder at its right.
+  const double away = shoulders->away.value_or(0.0) * (shoulders->left > 0.0 ? -1.0 : 1.0);
+  constexpr double kWellAcross = 0.75;
+  constexpr double kTold = 0.03;  // metres of depth between shoulders
+  if (facing.across > kWellAcross) {
+    facing.angle = std::atan2(away, facing.across * kShoulders);
+    facing.sigma = 0.25;
+  } else {
+    facing.angle = std::copysign(std::acos(facing.across), away);
+    facing.sigma = std::abs(away) > kTold ? 0.5 : 0.9;
+  }
+  facing.toCamera = facing.across * frontEvidence(view, body, *person.joints, *shoulders);
+  return facing;
+}
+
+void setHeading(const Facing& facing, const Body& body, PersonSighting& sighting) {
+  const double toCamera = std::atan2(-body.away.y(), -body.away.x());
+  const double turn = facing.toCamera < 0.0 ? std::numbers::pi : 0.0;
+  sighting.heading = geometry::normalizeAngle(toCamera + facing.angle + turn);
+  sighting.headingSigma = facing.sigma;
+  sighting.facing = std::abs(facing.toCamera);
+}
+
+/// Shares of 16 hues, and of 8 greys for pixels without any.
+Appearance appearanceOf(const UprightView& view, const Body& body) {
+  Appearance shares{};
+  for (const Sample& sample : body.torso) {
+    const auto& bgr = view.picture().at<cv::Vec3b>(sample.pixel);
+    const auto [least, most] = std::minmax({bgr[0], bgr[1], bgr[2]});
+    const int chroma = most - least;
+    std::size_t bin = 16 + static_cast<std::size_t>(most) / 32;
+    if (chroma > 40 || (most > 40 && 4 * chroma > most)) {
+      double hue = 0.0;  // in sixths of a circle
+      if (most == bgr[2])
+        hue = static_cast<double>(bgr[1] - bgr[0]) / chroma;
+      else if (most == bgr[1])
+        hue = 2.0 + static_cast<double>(bgr[0] - bgr[2]) / chroma;
+      else
+        hue = 4.0 + static_cast<double>(bgr[2] - bgr[1]) / chroma;
+      bin = static_cast<std::size_t>(std::fmod(hue + 6.0, 6.0) / 6.0 * 16.0) % 16;
+    }
+    shares[bin] += 1.0F / static_cast<float>(body.torso.size());
+  }
+  return shares;
+}
+
 }  // namespace
 
 std::optional<PersonSighting> locate(const UprightView& view, const PicturedPerson& person, double floor_z) {
@@ -201,14 +327,20 @@ std::optional<PersonSighting> locate(const UprightView& view, const PicturedPers
   if (!body || !isOfHumanSize(*body, floor_z) || isFlat(view, person, *body)) return std::nullopt;
   PersonSighting sighting;
   sighting.score = person.box.score;
-  const Vector2d position = body->middle + kHalfThickness * body->away;
-  sighting.position_in_submap = {position.x(), position.y(), floor_z};
-  sighting.positionSigma = 0.05 + 0.01 * (position - view.camera_in_submap().head<2>()).norm();
+  double behind = kHalfThickness;
   if (person.joints) {
     for (std::size_t i = 0; i < person.joints->size(); ++i) {
       sighting.joints_in_submap[i] = jointIn(view, *body, (*person.joints)[i]);
     }
+    if (const auto facing = facingOf(view, *body, person, sighting)) {
+      setHeading(*facing, *body, sighting);
+      behind += kHalfWidthMore * std::sqrt(1.0 - facing->across * facing->across);
+    }
   }
+  const Vector2d position = body->middle + behind * body->away;
+  sighting.position_in_submap = {position.x(), position.y(), floor_z};
+  sighting.positionSigma = 0.04 + 0.01 * (position - view.camera_in_submap().head<2>()).norm();
+  if (!view.picture().empty()) sighting.appearance = appearanceOf(view, *body);
   return sighting;
 }
 
