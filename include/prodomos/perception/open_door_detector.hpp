@@ -13,6 +13,11 @@ namespace prodomos::perception {
 
 struct OpenDoorDetectorConfig {
   bool enabled = true;
+  double leastWidth = 0.6;    ///< metres between the jambs
+  double mostWidth = 2.4;     ///< metres
+  double mostPlain = 1.3;     ///< metres; wider ones need a lintel: else they are the mouths of corridors
+  double leastHeight = 1.85;  ///< metres above the floor; lower ones are hatches
+  double leastDepth = 0.8;    ///< metres of space behind the wall; less is a niche or a cupboard
 };
 
 void describe(base::ConfigVisitor& visitor, OpenDoorDetectorConfig& config);
