@@ -34,7 +34,7 @@ constexpr double kTreadDepth = 0.55;      // metres; level patches that are broa
 constexpr double kFloorSkin = 0.03;       // metres
 constexpr double kUpright = 1.05;         // radians of tilt: 60 degrees and more
 constexpr double kLevel = 0.40;           // radians: 23 degrees; low, short treads are measured up to 19 off level
-constexpr double kMostRoughness = 0.6;    // of steps against the slope
+constexpr std::size_t kMostSteps = 10;    // more tell no more
 constexpr double kBeside = 0.4;           // metres: what belongs to a flight that was found
 constexpr double kBelow = 0.5;
 constexpr double kRails = 1.4;
@@ -203,19 +203,21 @@ void removeFlight(const StaircaseSighting& flight, Material& material) {
   std::erase_if(material.voxels, isOfFlight);
 }
 
+/// The fewer the steps, the easier a sofa has it to look like them.
+double mostRoughness(std::size_t steps) {
+  return 0.25 + 0.035 * static_cast<double>(std::min(steps, kMostSteps));
+}
+
 std::optional<StaircaseSighting> flightOn(const Plane& slope, const std::vector<StairCell>& slab, const RgbdView& view,
                                           const Surfaces& surfaces, const Material& material) {
   const Pose3 T_submap_slope = flightFrame(slope, slab);
   const double rise = slope.normal.head<2>().norm() / slope.normal.z();
   const std::optional<FoundLattice> found = findLattice(inFrame(T_submap_slope, slab), rise);
-  if (!found || found->roughness > kMostRoughness) return std::nullopt;
+  if (!found || found->roughness > mostRoughness(kMostSteps)) return std::nullopt;
   const Pose3 T_submap_flight = T_submap_slope * geometry::fromYawPitchRoll({0.0, 0.0, 0.0}, found->turn, 0.0, 0.0);
   const ProfileCheck check(view.T_submap_camera, surfaces.depth, found->lattice, T_submap_flight);
   const std::optional<FlightSteps> steps = findSteps(material.cells, found->lattice, T_submap_flight, check);
-  if (!steps) return std::nullopt;
-  if (getenv("Q"))
-    fprintf(stderr, "Q %.3f %d+%d rough %.2f n %zu\n", steps->count.share(), steps->count.there, steps->count.other,
-            found->roughness, steps->steps.size());
+  if (!steps || found->roughness > mostRoughness(steps->steps.size())) return std::nullopt;
   return sightingOf(view, surfaces, *found, T_submap_flight, *steps, check);
 }
 

@@ -22,6 +22,7 @@ constexpr double kBin = 0.05;            // metres: a column across
 constexpr int kBins = 60;                // columns to either side
 constexpr int kGapBins = 5;              // that a post or a rail may hide
 constexpr int kMostStep = 40;            // from the frame's origin, either way
+constexpr double kOddRiser = 0.35;       // of a rise
 constexpr int kLeastAsked = 8;           // spots that tell how a flight ends
 
 /// A cell's place on the profile.
@@ -128,9 +129,11 @@ std::vector<SeenStep> longestRun(const std::vector<SeenStep>& steps, const Profi
   return {begin, begin + static_cast<std::ptrdiff_t>(bestCount)};
 }
 
-/// Before the first riser there is a floor, or a tread, or something hides it.
-bool hasFooting(const ProfileCheck& check, int lowest, const Across& across) {
-  const auto count = countAcross(across, [&](double y) { return check.tread(lowest - 1, y); });
+/// Before the first riser there is a floor, or a tread, or something hides it. First risers are often of a size of
+/// their own.
+bool hasFooting(const ProfileCheck& check, const StepLattice& lattice, int lowest, const Across& across) {
+  const auto count =
+      countAcross(across, [&](double y) { return check.tread(lowest - 1, y, kOddRiser * lattice.rise); });
   return count.asked() < kLeastAsked || count.share() >= 0.5;
 }
 
@@ -153,29 +156,31 @@ ProfileCheck::Count ProfileCheck::riser(int step, double y) const {
   Count count;
   if (T_flight_camera_.translation().x() > lattice_.riserAt(step)) return count;
   for (const double share : {0.3, 0.7}) {
-    count += at({lattice_.riserAt(step), y, lattice_.treadAt(step) - share * lattice_.rise}, StepPart::kRiser, step);
+    count +=
+        at({lattice_.riserAt(step), y, lattice_.treadAt(step) - share * lattice_.rise}, Eigen::Vector3d::UnitX(), 0.0);
   }
   return count;
 }
 
-ProfileCheck::Count ProfileCheck::tread(int step, double y) const {
+ProfileCheck::Count ProfileCheck::tread(int step, double y, double tolerance) const {
   Count count;
   if (T_flight_camera_.translation().z() < lattice_.treadAt(step)) return count;
   for (const double share : {0.3, 0.7}) {
-    count += at({lattice_.riserAt(step) + share * lattice_.depth, y, lattice_.treadAt(step)}, StepPart::kTread, step);
+    count += at({lattice_.riserAt(step) + share * lattice_.depth, y, lattice_.treadAt(step)}, Eigen::Vector3d::UnitZ(),
+                tolerance);
   }
   return count;
 }
 
-ProfileCheck::Count ProfileCheck::at(const Eigen::Vector3d& point_in_flight, StepPart part, int step) const {
-  const Eigen::Vector3d expected = T_camera_flight_ * point_in_flight;
+ProfileCheck::Count ProfileCheck::at(const Eigen::Vector3d& spot, const Eigen::Vector3d& normal,
+                                     double tolerance) const {
+  const Eigen::Vector3d expected = T_camera_flight_ * spot;
   const auto* cell = grid_.cellAt(expected);
   if (cell == nullptr) return {};
   const auto depth = static_cast<double>(cell->depth);
   if (depth < expected.z() - kInFront) return {};
-  const Eigen::Vector3d seen = T_flight_camera_ * pointOf(*cell);
-  const double off = part == StepPart::kRiser ? seen.x() - lattice_.riserAt(step) : seen.z() - lattice_.treadAt(step);
-  return std::abs(off) < kProfile + sensors::depthSigma(depth) ? Count{1, 0} : Count{0, 1};
+  const double off = normal.dot(T_flight_camera_ * pointOf(*cell) - spot);
+  return std::abs(off) < kProfile + tolerance + sensors::depthSigma(depth) ? Count{1, 0} : Count{0, 1};
 }
 
 std::optional<double> ProfileCheck::depthBehind(const Eigen::Vector3d& point_in_flight) const {
@@ -198,7 +203,7 @@ std::optional<FlightSteps> findSteps(std::span<const StairCell> cells, const Ste
     return count.there * kBin < kLeastWidth || count.other > count.there;
   });
   steps = longestRun(steps, check, across);
-  if (steps.size() < kLeastSteps || !hasFooting(check, steps.front().index, across)) return std::nullopt;
+  if (steps.size() < kLeastSteps || !hasFooting(check, lattice, steps.front().index, across)) return std::nullopt;
 
   FlightSteps found;
   for (const SeenStep& step : steps) found.count += countOf(check, step.index, across);

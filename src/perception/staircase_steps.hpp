@@ -36,12 +36,13 @@ class ProfileCheck {
   };
 
   Count riser(int step, double y) const;
-  Count tread(int step, double y) const;
+  /// `tolerance`: metres that it may lie higher or lower, beside noise.
+  Count tread(int step, double y, double tolerance = 0.0) const;
   /// Measured depth less expected one, metres; none where depth is not known.
   std::optional<double> depthBehind(const Eigen::Vector3d& point_in_flight) const;
 
  private:
-  Count at(const Eigen::Vector3d& point_in_flight, StepPart part, int step) const;
+  Count at(const Eigen::Vector3d& spot_in_flight, const Eigen::Vector3d& normal, double tolerance) const;
 
   const sensors::DepthGrid& grid_;
   StepLattice lattice_;
