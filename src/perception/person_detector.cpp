@@ -120,7 +120,7 @@ class PersonDetector::Implementation {
     if (!boxes_ || picture.empty()) return people;
     for (const auto& box : united(boxes_->byBody(picture), boxes_->byClass(picture))) {
       if (box.score < kDoubtful * config_.leastScore) continue;
-      people.push_back({box, joints_->find(picture, box.box), nullptr});
+      people.push_back({.box = box, .joints = joints_->find(picture, box.box)});
     }
     return people;
   }
@@ -155,7 +155,8 @@ std::vector<PersonSighting> PersonDetector::find(const RgbdView& view, const sen
       joints[i] = {upright->fromFrame({joint.x, joint.y}), joint.score};
     }
     const double score = meanScore(joints);
-    if (score >= implementation_->config().leastScore) people.push_back({{boxOf(joints), score}, joints, nullptr});
+    if (score >= implementation_->config().leastScore)
+      people.push_back({.box = {boxOf(joints), score}, .joints = joints, .knowsSides = true});
   }
   return located(view, *upright, people, debug);
 }
@@ -166,7 +167,7 @@ std::vector<PersonSighting> PersonDetector::findInLabels(const RgbdView& view,
   if (!upright || !view.frame.labels) return {};
   std::vector<PicturedPerson> people;
   const auto masks = personMasks(*upright, *view.frame.labels, classes);
-  for (const auto& [mask, box] : masks) people.push_back({{box, 1.0}, std::nullopt, &mask});
+  for (const auto& [mask, box] : masks) people.push_back({.box = {box, 1.0}, .mask = &mask});
   return located(view, *upright, people, nullptr);
 }
 

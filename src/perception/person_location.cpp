@@ -36,6 +36,8 @@ constexpr double kHalfThickness = 0.10;  ///< of a torso seen from front or back
 constexpr double kHalfWidthMore = 0.05;  ///< the same seen from the side, more than that
 constexpr double kFlesh = 0.06;          ///< before a joint
 constexpr double kLeastJointScore = 0.1;
+constexpr double kSureOfSides = 2.0;  ///< log-odds
+constexpr double kEdge = 3.0;         ///< pixels; what comes nearer to the picture's edge is cut by it
 constexpr std::size_t kLeastSamples = 40;
 
 struct Sample {
@@ -48,8 +50,9 @@ struct Sample {
 struct Body {
   std::vector<Sample> samples;
   std::vector<Sample> torso;
-  double top_z = 0.0;                  ///< of what is seen
-  bool topIsSeen = false;              ///< not cut by the picture's edge
+  double top_z = 0.0;      ///< of what is seen
+  bool topIsSeen = false;  ///< not cut by the picture's edge
+  bool footIsInPicture = false;
   Vector2d middle = Vector2d::Zero();  ///< of the torso's surface, in the sub-map
   Vector2d away = Vector2d::UnitX();
   Vector2d left = Vector2d::UnitY();
@@ -121,7 +124,8 @@ std::optional<Body> bodyOf(const UprightView& view, const PicturedPerson& person
   }
   if (body.samples.size() < kLeastSamples) return std::nullopt;
   body.top_z = quantile(heights, 0.99);
-  body.topIsSeen = person.box.box.y > 3.0;
+  body.topIsSeen = person.box.box.y > kEdge;
+  body.footIsInPicture = person.box.box.br().y < view.size().height - kEdge;
   for (const Sample& sample : body.samples) {
     const double below = body.top_z - sample.point_in_submap.z();
     if (below < kTorsoEnd && (below > kTorsoTop || !body.topIsSeen)) body.torso.push_back(sample);
@@ -257,14 +261,16 @@ double frontEvidence(const UprightView& view, const Body& body, const ImageJoint
   double evidence = std::clamp(kSteep * (score - kEven), -2.5, 2.5);
   // Shoulders that lie as those of who faces the camera may be a back's all the same, others hardly a front's.
   evidence += std::clamp(8.0 * (-shoulders.left - 0.24), -1.5, 1.0);
+  // What the network makes of someone cut by the picture's edge tells less.
+  if (!body.topIsSeen || !body.footIsInPicture) evidence *= 0.3;
   const auto skin = skinOfHead(view, body);
   if (skin && *skin < 0.2) evidence -= 1.5;
   if (skin && *skin > 0.5) evidence += 0.3;
   return evidence;
 }
 
-/// From the shoulders, and from the hips where the network sees shoulders too close to each other. Right and left are
-/// not believed: it exchanges them on backs.
+/// From the shoulders, and from the hips where the network sees shoulders too close to each other. Its right and left
+/// are not believed: it exchanges them on backs.
 std::optional<Facing> facingOf(const UprightView& view, const Body& body, const PicturedPerson& person,
                                const PersonSighting& sighting) {
   const auto shoulders = spanOf(view, body, person, sighting, kRightShoulder, kLeftShoulder);
@@ -285,7 +291,9 @@ std::optional<Facing> facingOf(const UprightView& view, const Body& body, const 
     facing.angle = std::copysign(std::acos(facing.across), away);
     facing.sigma = std::abs(away) > kTold ? 0.5 : 0.9;
   }
-  facing.toCamera = facing.across * frontEvidence(view, body, *person.joints, *shoulders);
+  const double evidence = person.knowsSides ? std::copysign(kSureOfSides, -shoulders->left)
+                                            : frontEvidence(view, body, *person.joints, *shoulders);
+  facing.toCamera = facing.across * evidence;
   return facing;
 }
 

@@ -15,6 +15,7 @@ namespace prodomos::perception {
 struct PicturedPerson {
   PersonBox box;
   std::optional<ImageJoints> joints;
+  bool knowsSides = false;        ///< right and left of the joints can be believed
   const cv::Mat* mask = nullptr;  ///< non-zero where the person is, as large as the picture; null: not known
 };
 
