@@ -3,7 +3,9 @@
 #include "prodomos/perception/open_door_detector.hpp"
 
 #include "perception/open_door_leaf.hpp"
+#include "perception/open_door_picture.hpp"
 #include "perception/open_door_profile.hpp"
+#include "perception/open_door_swung.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +16,7 @@ namespace prodomos::perception {
 using open_doors::Gap;
 using open_doors::Hinge;
 using open_doors::Leaf;
+using open_doors::SwungLeaf;
 using open_doors::WallProfile;
 
 namespace {
@@ -22,6 +25,11 @@ constexpr std::size_t kMostWalls = 6;
 constexpr double kLeastWallArea = 0.3;                // m²
 constexpr double kWidestLeaf = 1.2;                   // metres; wider openings have two
 constexpr double kOpenFrom = std::numbers::pi / 3.0;  // docs/truth.md
+constexpr double kHingeEvidence = 2.0;                // log-odds
+constexpr double kAcrossSigma = 0.05;                 // metres; where in the wall the leaf hangs
+constexpr double kFloorSigma = 0.03;                  // metres
+constexpr double kYawSigma = 0.03;                    // radians
+constexpr double kDrawnReach = 5.0;                   // metres
 constexpr double kWallHalf = 0.08;                    // metres from a wall's face to its middle, where nothing shows it
 
 /// An opening in a wall, and the leaves at its left and right jambs.
@@ -35,6 +43,7 @@ struct Opening {
   std::optional<Leaf> rightLeaf;
 
   double width() const { return right - left; }
+  double leafWidth() const { return width() > kWidestLeaf ? 0.5 * width() : width(); }
   bool hasLeaf() const { return leftLeaf || rightLeaf; }
 };
 
@@ -46,12 +55,10 @@ Opening lookAt(const WallProfile& profile, const Gap& gap, const RgbdView& view,
   opening.right = profile.xOf(gap.right) + 0.5 * WallProfile::kStep;
   opening.lintel = profile.lintel(gap);
   opening.behind = profile.shareBehind(gap, config.leastDepth);
-  const double width = opening.width();
-  const double leafWidth = width > kWidestLeaf ? 0.5 * width : width;
-  const auto spots =
-      open_doors::spotsNear(view, surfaces, profile.wall(), 0.5 * (opening.left + opening.right), width + 0.5);
-  opening.leftLeaf = open_doors::findLeaf(spots, {opening.left, 1.0, leafWidth});
-  opening.rightLeaf = open_doors::findLeaf(spots, {opening.right, -1.0, leafWidth});
+  const double middle = 0.5 * (opening.left + opening.right);
+  const auto spots = open_doors::spotsNear(view, surfaces, profile.wall(), middle, opening.width() + 0.5);
+  opening.leftLeaf = open_doors::findLeaf(spots, {opening.left, 1.0, opening.leafWidth()});
+  opening.rightLeaf = open_doors::findLeaf(spots, {opening.right, -1.0, opening.leafWidth()});
   return opening;
 }
 
@@ -69,47 +76,81 @@ std::optional<double> evidenceOf(const Opening& opening, const OpenDoorDetectorC
   return opening.lintel ? 1.5 : 0.3;
 }
 
-void tellLeaf(const Opening& opening, DoorSighting& sighting) {
+/// A door or doorway in a wall's frame.
+struct Told {
+  double left = 0.0;  // of the opening, metres along the wall
+  double right = 0.0;
+  double height = 0.0;                                  // metres, 0: not measured
+  std::optional<double> angle;                          // of a leaf, radians from closed; none: none seen
+  map::HingeSide hingeSide = map::HingeSide::kUnknown;  // of it
+  double evidence = 0.0;                                // log-odds
+  double sigma = 0.0;                                   // metres along the wall, beyond that of jambs
+};
+
+Told toldBy(const Opening& opening, double evidence) {
+  Told told{opening.left, opening.right, opening.lintel.value_or(0.0)};
+  told.evidence = evidence;
+  if (!opening.hasLeaf()) return told;
   const bool isLeft =
       opening.leftLeaf && (!opening.rightLeaf || opening.leftLeaf->covered >= opening.rightLeaf->covered);
-  const Leaf& leaf = isLeft ? *opening.leftLeaf : *opening.rightLeaf;
-  sighting.door.hasLeaf = true;
-  sighting.openAngle = std::abs(leaf.angle);
-  sighting.door.state = sighting.openAngle < kOpenFrom ? map::DoorState::kAjar : map::DoorState::kOpen;
-  if (opening.width() > kWidestLeaf) return;  // two leaves, two sides
-  sighting.door.hingeSide = isLeft ? map::HingeSide::kLeft : map::HingeSide::kRight;
-  sighting.hingeEvidence = isLeft ? 2.0 : -2.0;
+  told.angle = std::abs((isLeft ? opening.leftLeaf : opening.rightLeaf)->angle);
+  if (opening.width() > kWidestLeaf) return told;  // two leaves, two sides
+  told.hingeSide = isLeft ? map::HingeSide::kLeft : map::HingeSide::kRight;
+  return told;
 }
 
-DoorSighting sightingOf(const Opening& opening, const Wall& wall, const RgbdView& view, double evidence) {
+Told toldBy(const SwungLeaf& leaf) {
+  constexpr double kSigma = 0.05;
+  const double end = leaf.hinge.x + leaf.hinge.closing * leaf.hinge.leafWidth;
+  Told told{std::min(leaf.hinge.x, end), std::max(leaf.hinge.x, end), leaf.top, leaf.angle};
+  told.hingeSide = leaf.hinge.closing > 0.0 ? map::HingeSide::kLeft : map::HingeSide::kRight;
+  told.evidence = leaf.sideIsSeen ? 1.5 : 0.5;
+  told.sigma = kSigma;
+  return told;
+}
+
+/// Jambs are as sharp as a cell of the depth grid, seen as obliquely as the wall.
+double alongSigma(const Told& told, const Wall& wall, double range, double focalLength) {
+  constexpr double kFrame = 0.02;  // metres
+  const double cell = sensors::DepthGrid::kBlock * range / focalLength;
+  return kFrame + told.sigma + cell * range / std::max(0.1, wall.distance);
+}
+
+DoorSighting sightingOf(const Told& told, const Wall& wall, const RgbdView& view) {
   DoorSighting sighting;
   sighting.time = view.time;
-  sighting.evidence = evidence;
-  sighting.door.width = opening.width();
-  sighting.door.height = opening.lintel.value_or(0.0);
-  sighting.door.hasLeaf = false;
-  sighting.door.state = map::DoorState::kOpen;
-  if (opening.hasLeaf()) tellLeaf(opening, sighting);
-  const Eigen::Vector3d middle(0.5 * (opening.left + opening.right), kWallHalf, 0.0);
+  sighting.evidence = told.evidence;
+  sighting.door.width = told.right - told.left;
+  sighting.door.height = told.height;
+  sighting.door.hasLeaf = told.angle.has_value();
+  sighting.door.hingeSide = told.hingeSide;
+  sighting.openAngle = told.angle.value_or(0.0);
+  const bool isAjar = told.angle && *told.angle < kOpenFrom;
+  sighting.door.state = isAjar ? map::DoorState::kAjar : map::DoorState::kOpen;
+  if (told.hingeSide != map::HingeSide::kUnknown) {
+    sighting.hingeEvidence = told.hingeSide == map::HingeSide::kLeft ? kHingeEvidence : -kHingeEvidence;
+  }
+  const Eigen::Vector3d middle(0.5 * (told.left + told.right), kWallHalf, 0.0);
   sighting.T_submap_door.linear() << wall.T_submap_wall.linear().col(1), -wall.T_submap_wall.linear().col(0),
       Eigen::Vector3d::UnitZ();
   sighting.T_submap_door.translation() = wall.T_submap_wall * middle;
   sighting.range = std::hypot(middle.x(), wall.distance);
-  const double depthSigma = sensors::depthSigma(sighting.range);
-  // Jambs are as sharp as a cell of the depth grid, seen as obliquely as the wall.
-  const double cell = sensors::DepthGrid::kBlock * sighting.range / view.frame.camera.fx;
-  const double alongSigma = 0.02 + cell * sighting.range / std::max(0.1, wall.distance);
-  const double acrossSigma = 0.05 + depthSigma;
-  sighting.widthSigma = alongSigma;
-  const double c = sighting.T_submap_door.linear()(0, 0);
-  const double s = sighting.T_submap_door.linear()(1, 0);
-  Eigen::Matrix2d turn;
-  turn << c, -s, s, c;
-  const Eigen::Vector2d variances(acrossSigma * acrossSigma, 0.5 * alongSigma * alongSigma);
-  sighting.covariance.topLeftCorner<2, 2>() = turn * variances.asDiagonal() * turn.transpose();
-  sighting.covariance(2, 2) = 0.03 * 0.03;
-  sighting.covariance(3, 3) = 0.03 * 0.03;
+
+  const double along = alongSigma(told, wall, sighting.range, view.frame.camera.fx);
+  const double across = kAcrossSigma + sensors::depthSigma(sighting.range);
+  const Eigen::Matrix2d axes = sighting.T_submap_door.linear().topLeftCorner<2, 2>();
+  const Eigen::Vector2d variances(across * across, 0.5 * along * along);
+  sighting.covariance.topLeftCorner<2, 2>() = axes * variances.asDiagonal() * axes.transpose();
+  sighting.covariance(2, 2) = kFloorSigma * kFloorSigma;
+  sighting.covariance(3, 3) = kYawSigma * kYawSigma;
+  sighting.widthSigma = along;
   return sighting;
+}
+
+void draw(DebugImages& debug, int number, const WallProfile& profile, const std::vector<open_doors::DrawnGap>& gaps,
+          const RgbdView& view, const Surfaces& surfaces) {
+  const auto spots = open_doors::spotsNear(view, surfaces, profile.wall(), 0.0, kDrawnReach);
+  debug.add("open_doors_" + std::to_string(number), drawProfile(profile, spots, gaps));
 }
 
 }  // namespace
@@ -129,19 +170,27 @@ std::vector<DoorSighting> findOpenDoors(const RgbdView& view, const Surfaces& su
                                         const OpenDoorDetectorConfig& config, DebugImages* debug) {
   std::vector<DoorSighting> found;
   if (!config.enabled) return found;
-  auto walls = findWalls(view, surfaces);
-  if (walls.size() > kMostWalls) walls.resize(kMostWalls);
-  for (const auto& wall : walls) {
-    if (wall.area < kLeastWallArea) continue;
-    const WallProfile profile(view, surfaces, wall);
+  std::vector<WallProfile> profiles;
+  for (const auto& wall : findWalls(view, surfaces)) {
+    if (wall.area > kLeastWallArea && profiles.size() < kMostWalls) profiles.emplace_back(view, surfaces, wall);
+  }
+  int number = 0;
+  for (const auto& profile : profiles) {
+    std::vector<open_doors::DrawnGap> drawn;
     for (const auto& gap : profile.gaps(config.leastWidth, config.mostWidth)) {
       const auto opening = lookAt(profile, gap, view, surfaces, config);
-      if (const auto evidence = evidenceOf(opening, config)) {
-        found.push_back(sightingOf(opening, wall, view, *evidence));
-      }
+      const auto evidence = evidenceOf(opening, config);
+      if (evidence) found.push_back(sightingOf(toldBy(opening, *evidence), profile.wall(), view));
+      drawn.push_back({gap, opening.leftLeaf, opening.rightLeaf, opening.leafWidth(), evidence.has_value()});
+    }
+    for (const auto& other : profiles) {
+      const auto leaf = &other == &profile ? std::nullopt : open_doors::findSwungLeaf(profile, other);
+      if (leaf) found.push_back(sightingOf(toldBy(*leaf), profile.wall(), view));
+    }
+    if (debug != nullptr && debug->isWanted() && profile.count() > 0) {
+      draw(*debug, number++, profile, drawn, view, surfaces);
     }
   }
-  static_cast<void>(debug);
   return found;
 }
 

@@ -51,7 +51,6 @@ std::optional<double> WallProfile::depthBehind(double x, double z) const {
   return wall_.distance * (static_cast<double>(cell->depth) / point.z() - 1.0);
 }
 
-/// Metres that what is seen of the wall may lie off its plane.
 double WallProfile::toleranceAt(double x, double z) const {
   const double depth = (T_camera_wall_ * Eigen::Vector3d(x, 0.0, z)).z();
   return kRoughness + kSigmas * sensors::depthSigma(depth) * wall_.distance / depth;

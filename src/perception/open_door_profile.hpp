@@ -46,11 +46,12 @@ class WallProfile {
   std::optional<double> lintel(const Gap& gap) const;
   /// Whether lintels of doors would be in the image there.
   bool showsTop(const Gap& gap) const;
-
- private:
   /// y of what is seen in the direction of the wall's point, metres; NaN: not known. None: outside of the image.
   std::optional<double> depthBehind(double x, double z) const;
+  /// Metres that what is seen of the wall may lie off its plane.
   double toleranceAt(double x, double z) const;
+
+ private:
   Strip stripAt(double x) const;
 
   const sensors::DepthGrid& depth_;
