@@ -347,7 +347,7 @@ std::optional<PersonSighting> locate(const UprightView& view, const PicturedPers
   }
   const Vector2d position = body->middle + behind * body->away;
   sighting.position_in_submap = {position.x(), position.y(), floor_z};
-  sighting.positionSigma = 0.04 + 0.01 * (position - view.camera_in_submap().head<2>()).norm();
+  sighting.positionSigma = 0.03 + 0.005 * (position - view.camera_in_submap().head<2>()).norm();
   if (!view.picture().empty()) sighting.appearance = appearanceOf(view, *body);
   return sighting;
 }

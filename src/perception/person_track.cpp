@@ -23,12 +23,15 @@ using Eigen::Vector3d;
 
 constexpr double kPi = std::numbers::pi;
 
-constexpr double kAcceleration = 1.5;     ///< m/s², of people who start, stop and turn corners
+constexpr double kAcceleration = 0.4;     ///< m²/s³, spectral density of a walker's accelerations
 constexpr double kWalkingSpeed = 1.0;     ///< m/s, of someone of whom one knows nothing else
 constexpr double kLongestStride = 1.0;    ///< seconds that somebody unseen is believed to go on as before
 constexpr double kTurnRate = 3.0;         ///< rad/s, of a torso
 constexpr double kLeastSpeed = 0.35;      ///< m/s, of who walks ahead rather than shifts
 constexpr double kMostSureOfFront = 3.0;  ///< log-odds
+/// People walk ahead; what they look like errs alike in one image after the other.
+constexpr double kSureOfWalk = 1.5;
+constexpr double kShareOfLook = 0.5;
 constexpr base::Duration kLongestGap = std::chrono::milliseconds(1000);
 constexpr int kLeastSightings = 3;
 constexpr double kMostDoubt = 0.1;
@@ -133,12 +136,11 @@ void PersonTrack::predict(base::Time time) {
   Matrix4d step = Matrix4d::Identity();
   step.topRightCorner<2, 2>().diagonal().setConstant(stride);
   if (unseen > kLongestStride) step.bottomRightCorner<2, 2>().setZero();
-  const double variance = kAcceleration * kAcceleration;
   Matrix4d noise = Matrix4d::Zero();
-  noise.topLeftCorner<2, 2>().diagonal().setConstant(variance * dt * dt * dt / 3.0);
-  noise.topRightCorner<2, 2>().diagonal().setConstant(variance * dt * dt / 2.0);
+  noise.topLeftCorner<2, 2>().diagonal().setConstant(kAcceleration * dt * dt * dt / 3.0);
+  noise.topRightCorner<2, 2>().diagonal().setConstant(kAcceleration * dt * dt / 2.0);
   noise.bottomLeftCorner<2, 2>() = noise.topRightCorner<2, 2>();
-  noise.bottomRightCorner<2, 2>().diagonal().setConstant(variance * dt);
+  noise.bottomRightCorner<2, 2>().diagonal().setConstant(kAcceleration * dt);
   state_ = step * state_;
   covariance_ = step * covariance_ * step.transpose() + noise;
   headingVariance_ = std::min(headingVariance_ + kTurnRate * kTurnRate * dt * dt, kPi * kPi);
@@ -178,13 +180,13 @@ void PersonTrack::updatePosition(const PersonSighting& sighting) {
 }
 
 void PersonTrack::updateHeading(const PersonSighting& sighting) {
-  if (sighting.heading) mergeHeading(*sighting.heading, sighting.headingSigma, sighting.facing);
+  if (sighting.heading) mergeHeading(*sighting.heading, sighting.headingSigma, kShareOfLook * sighting.facing);
   // Who walks looks ahead.
   const Vector2d velocity = state_.tail<2>();
   const double speed = velocity.norm();
   const double sigma = std::sqrt(0.5 * covariance_.diagonal().tail<2>().sum());
-  if (speed < kLeastSpeed || speed < 2.0 * sigma) return;
-  mergeHeading(std::atan2(velocity.y(), velocity.x()), std::hypot(0.15, sigma / speed), 1.0);
+  if (speed < kLeastSpeed || speed < 1.5 * sigma) return;
+  mergeHeading(std::atan2(velocity.y(), velocity.x()), std::hypot(0.15, sigma / speed), kSureOfWalk);
 }
 
 /// The axis that is nearer moves the filter; which end of it is the front is counted apart.
@@ -194,6 +196,7 @@ void PersonTrack::mergeHeading(double heading, double sigma, double facing) {
     heading_ = heading;
     headingVariance_ = sigma * sigma;
     front_ = facing;
+    for (FollowedState& state : pending_) state.heading = heading;
     return;
   }
   double turn = geometry::normalizeAngle(heading - heading_);

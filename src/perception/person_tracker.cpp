@@ -127,7 +127,7 @@ std::vector<PersonTrack>::iterator PersonTracker::Implementation::findRemembered
   for (auto known = remembered_.begin(); known != remembered_.end(); ++known) {
     const double away = (known->position() - track.position()).norm();
     const double meanwhile = base::seconds(track.lastSeen() - known->lastSeen());
-    const double likeness = known->likeness(track.appearance()).value_or(0.0);
+    const double likeness = known->likeness(track.appearance()).value_or(kSimilarClothes);
     const double least = away < kSamePlace ? kSimilarClothes : kLikeClothes;
     if (away > kSamePlace + kRunningSpeed * meanwhile || likeness < least || likeness <= bestLikeness) continue;
     best = known;
