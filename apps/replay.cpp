@@ -4,6 +4,7 @@
 
 #include "prodomos/base/error.hpp"
 #include "prodomos/io/open_source.hpp"
+#include "prodomos/perception/debug_images.hpp"
 
 #include "commands.hpp"
 #include "overwriting.hpp"
@@ -13,13 +14,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <iostream>
+#include <optional>
 
 namespace prodomos::apps {
 
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view kNoModels = "none";
 
 struct ReplayOptions {
   std::string log;
@@ -37,6 +42,9 @@ struct ReplayOptions {
   std::string labels;
   std::string detections;
   std::string keyPoints;
+  std::string models;
+  std::string debugImages;
+  int debugEvery = 10;
   std::string report;
   bool quiet = false;
 };
@@ -51,6 +59,17 @@ void applyShorthands(ReplayOptions& options) {
   set("input.start", options.start);
   set("input.end", options.end);
   set("input.fps", options.fps);
+  if (options.models != kNoModels) set("people.models", options.models);
+}
+
+/// Where the data sets are put, their networks are.
+void findModels(const ReplayOptions& options, mapper::MapperConfig& config) {
+  auto& models = config.perception.people.models;
+  const char* datasets = std::getenv("PRODOMOS_DATASETS");
+  if (!models.empty() || !options.models.empty() || !options.keyPoints.empty() || datasets == nullptr) return;
+  const fs::path folder = fs::path(datasets) / "models";
+  std::error_code unknown;
+  if (fs::is_directory(folder, unknown)) models = folder.string();
 }
 
 io::SourceOptions sourceOptions(const ReplayOptions& options, const mapper::MapperConfig& config) {
@@ -125,6 +144,12 @@ mapper::MapperConfig configToResume(const ReplayOptions& options, const map::Ses
   return stored;
 }
 
+std::string pluralOf(const map::EntityAttributes& attributes) {
+  if (const auto* door = std::get_if<map::Door>(&attributes)) return door->hasLeaf ? "doors" : "doorways";
+  if (std::holds_alternative<map::Human>(attributes)) return "people";
+  return std::string(className(attributes)) + "s";
+}
+
 ReplayResult resultOf(mapper::Mapper& mapper, const map::MapView& view) {
   const auto& graph = view.graph();
   const auto edges = graph.edges();
@@ -137,6 +162,7 @@ ReplayResult resultOf(mapper::Mapper& mapper, const map::MapView& view) {
     const auto kind = graph.getEdge(id).kind;
     return kind == map::EdgeKind::kLoop || kind == map::EdgeKind::kOverlap;
   }));
+  for (const auto& entity : view.entities()) ++result.entities[pluralOf(entity.attributes)];
   if (view.sessions().size() > 1) result.meetsEarlier = mapper.meetsEarlierSessions();
   return result;
 }
@@ -155,6 +181,7 @@ void replayLog(ReplayOptions& options) {
     requireOtherFile("--report", options.report, options.output, "the map");
   }
   auto config = base::readConfig<mapper::MapperConfig>(options.config);
+  findModels(options, config);
   const bool resumes = options.resume && fs::exists(options.output);
   if (resumes) {
     const auto view = map::MapView::open(options.output);
@@ -173,7 +200,9 @@ void replayLog(ReplayOptions& options) {
   ReplayResult result;
   {
     auto store = openStore(options);
-    mapper::Mapper mapper(store, config, log);
+    std::optional<perception::DebugImages> debug;
+    if (!options.debugImages.empty()) debug.emplace(options.debugImages, options.debugEvery);
+    mapper::Mapper mapper(store, config, log, debug ? &*debug : nullptr);
     {
       ProgressBar bar("replay", "readings", options.quiet);
       mapper::replay(*source, mapper,
@@ -235,6 +264,12 @@ void addReplay(CLI::App& program) {
   command->add_option("--labels", options->labels, "folder of label images and classes.yaml");
   command->add_option("--detections", options->detections, "side file of detected boxes");
   command->add_option("--key-points", options->keyPoints, "side file of persons' joints");
+  command->add_option("--models", options->models,
+                      "folder of the networks that find people, or none (default: models of $PRODOMOS_DATASETS)");
+  command->add_option("--debug-images", options->debugImages,
+                      "folder for pictures of how doors, stairs and people were found");
+  command->add_option("--debug-every", options->debugEvery, "a picture of one frame in so many (10)")
+      ->check(CLI::PositiveNumber);
   command->add_option("--report", options->report, "write the closing report as JSON");
   command->add_flag("--quiet", options->quiet, "print errors only");
   command->callback([options] { replayLog(*options); });

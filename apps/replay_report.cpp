@@ -36,6 +36,8 @@ void writeReport(const ReplayResult& result, const std::string& path) {
         {"skipped", report.skippedByReason}}},
       {"faults", {{"count", report.faultCount}, {"first", report.faults}}},
       {"poses", {{"origin", result.poses}, {"lost", report.lost}}},
+      {"not_looked_at", report.notLookedAt},
+      {"entities", result.entities},
       {"submaps", report.submaps},
       {"loops", result.loops},
       {"meets_earlier_sessions", result.meetsEarlier ? nlohmann::json(*result.meetsEarlier) : nlohmann::json()},
@@ -64,6 +66,18 @@ void printReport(const ReplayResult& result, const sensors::SourceInfo& log, con
             << result.places << (result.places == 1 ? " place" : " places") << ", " << result.floors
             << (result.floors == 1 ? " floor" : " floors") << ", " << fixed(report.distance, 1) << " m travelled, "
             << result.loops << (result.loops == 1 ? " loop" : " loops") << '\n';
+  if (!result.entities.empty()) {
+    std::cout << "  found     ";
+    const char* comma = "";
+    for (const auto& [name, count] : result.entities) {
+      std::cout << comma << grouped(static_cast<std::int64_t>(count)) << ' ' << name;
+      comma = ", ";
+    }
+    std::cout << '\n';
+  }
+  for (const auto& [reason, count] : report.notLookedAt) {
+    std::cout << "  unseen    " << grouped(count) << "  " << reason << '\n';
+  }
   if (result.meetsEarlier && *result.meetsEarlier) {
     std::cout << "            meets what the map held before: all is in one frame\n";
   } else if (result.meetsEarlier) {

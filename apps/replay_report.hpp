@@ -19,7 +19,8 @@ struct ReplayResult {
   std::string poses;                                   ///< where they come from
   std::size_t places = 0;
   std::size_t floors = 0;
-  std::size_t loops = 0;             ///< of the whole map
+  std::size_t loops = 0;                        ///< of the whole map
+  std::map<std::string, std::size_t> entities;  ///< of the whole map: "doors", "doorways", "staircases", "people"
   std::optional<bool> meetsEarlier;  ///< was the log found in what the map held before? None where that was nothing
 };
 

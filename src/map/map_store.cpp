@@ -302,6 +302,14 @@ MapView MapStore::view(std::shared_ptr<const SubMap> running, const std::optiona
   for (const auto& place : view.graph_.places()) {
     for (const auto id : place.submaps) view.graph_.getNode(id).place = place.number;
   }
+  for (const auto& entity : running->entities) {
+    const auto stored = std::ranges::find(view.entities_, entity.id, &Entity::id);
+    if (stored != view.entities_.end()) {
+      *stored = entity;
+    } else {
+      view.entities_.push_back(entity);
+    }
+  }
   view.running_ = std::move(running);
   return view;
 }

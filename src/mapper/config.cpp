@@ -40,6 +40,7 @@ void describe(base::ConfigVisitor& visitor, MapperConfig& config) {
   describe(visitor, config.rgbdOdometry);
   describe(visitor, config.loops);
   describe(visitor, config.layers);
+  describe(visitor, config.perception);
 }
 
 }  // namespace prodomos::mapper

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prodomos/mapper/mapper.hpp"
 
+#include "prodomos/perception/perception.hpp"
+
 #include "mapper/floor_tracker.hpp"
 #include "mapper/graph_bytes.hpp"
 #include "mapper/graph_refiner.hpp"
@@ -25,7 +27,7 @@ constexpr std::size_t kMostWaiting = 64;
 constexpr base::Duration kLongestWait = std::chrono::seconds(2);
 
 /// Of what a checkpoint holds. Raise it with every change there.
-constexpr int kCheckpointVersion = 2;
+constexpr int kCheckpointVersion = 3;
 
 /// Where there is something, and where nothing: what layers are made of. Other readings do not begin sub-maps.
 bool tellsDistances(const sensors::ReadingData& data) {
@@ -48,7 +50,8 @@ localization::LoopCloserConfig loopsOf(const MapperConfig& config, const Localiz
 
 class Mapper::Impl {
  public:
-  Impl(map::MapStore& store, const MapperConfig& config, const sensors::SourceInfo& log);
+  Impl(map::MapStore& store, const MapperConfig& config, const sensors::SourceInfo& log,
+       perception::DebugImages* debug);
 
   void process(sensors::Reading reading);
   void skip(const sensors::Skipped& skipped);
@@ -67,12 +70,14 @@ class Mapper::Impl {
     sensors::Reading reading;
   };
 
-  void beginSession(const sensors::SourceInfo& log, base::SessionId id);
-  void resume(const map::Session& session);
+  void beginSession(const sensors::SourceInfo& log, base::SessionId id, const map::MapView& before);
+  void beginPerception(const map::MapView& before);
+  void resume(const map::MapView& before);
   void requireOpen();
 
   void placeWaiting(bool all);
   void place(const sensors::Reading& reading);
+  void takeSideFile(const sensors::Reading& reading);
   void integrate(const sensors::Reading& reading);
   void travelTo(const Localizer::Located& located, const sensors::Reading& reading);
   void beginTravel(const geometry::Pose3& T_travel_body, base::Time time);
@@ -85,6 +90,12 @@ class Mapper::Impl {
     return (session_.T_map_travel * T_travel_body).translation().z() - clearance_;
   }
 
+  /// Height of the floor below the robot, in the running sub-map.
+  double floorBelow() const;
+  perception::EntityMemory::SubMapPoses submapPoses() const {
+    return [this](base::SubMapId id) { return refiner_.T_map_submap(id); };
+  }
+
   void refine();
 
   void use(const sensors::Reading& reading);
@@ -95,6 +106,7 @@ class Mapper::Impl {
 
   map::MapStore& store_;
   MapperConfig config_;
+  perception::DebugImages* debug_;
   // False once the session is complete, or where a commit failed: then memory has gone on, and the file has not.
   bool isOpen_ = true;
 
@@ -105,28 +117,32 @@ class Mapper::Impl {
   std::deque<Waiting> waiting_;
   std::vector<std::int64_t> waitingWhenInterrupted_;
   GraphRefiner refiner_;
+  std::unique_ptr<perception::Perception> perception_;
   std::optional<RunningSubMap> running_;  // none until the first reading is placed
   double clearance_ = 0.0;                // height of the body above the floor
   geometry::Pose3 T_travel_lastBody_ = geometry::Pose3::Identity();
 };
 
-Mapper::Impl::Impl(map::MapStore& store, const MapperConfig& config, const sensors::SourceInfo& log)
+Mapper::Impl::Impl(map::MapStore& store, const MapperConfig& config, const sensors::SourceInfo& log,
+                   perception::DebugImages* debug)
     : store_(store),
       config_(config),
+      debug_(debug),
       localizer_(config, log),
       floors_(config.floor.leastHeight),
       refiner_(loopsOf(config, localizer_), store) {
-  const auto sessions = store.view().sessions();
+  const auto before = store.view();
+  const auto& sessions = before.sessions();
   if (sessions.empty()) {
-    beginSession(log, base::SessionId{0});
+    beginSession(log, base::SessionId{0}, before);
   } else if (sessions.back().state == map::SessionState::kRunning) {
-    resume(sessions.back());
+    resume(before);
   } else {
-    beginSession(log, base::SessionId{sessions.back().id.value + 1});
+    beginSession(log, base::SessionId{sessions.back().id.value + 1}, before);
   }
 }
 
-void Mapper::Impl::beginSession(const sensors::SourceInfo& log, base::SessionId id) {
+void Mapper::Impl::beginSession(const sensors::SourceInfo& log, base::SessionId id, const map::MapView& before) {
   session_.id = id;
   session_.log = log.path;
   session_.logKind = log.kind;
@@ -134,18 +150,29 @@ void Mapper::Impl::beginSession(const sensors::SourceInfo& log, base::SessionId 
   session_.poses = localizer_.name();
   session_.version = PRODOMOS_VERSION;
   session_.classes = log.classes;
+  beginPerception(before);
   map::MapChange change;
   change.floors = floors_.floors();
   commit(std::move(change));
 }
 
-void Mapper::Impl::resume(const map::Session& session) {
+void Mapper::Impl::resume(const map::MapView& before) {
+  const auto& session = before.sessions().back();
   if (base::writeConfig(config_, false) != session.config) {
     throw base::UsageError("session " + toString(session.id) +
                            " of the map is not finished, and can only be gone on with under its own configuration");
   }
   session_ = session;
+  beginPerception(before);
   if (const auto checkpoint = store_.findCheckpoint(session_.id)) load(*checkpoint);
+}
+
+void Mapper::Impl::beginPerception(const map::MapView& before) {
+  perception::Perception::Ids first;
+  for (const auto& entity : before.entities()) first.entity.value = std::max(first.entity.value, entity.id.value + 1);
+  for (const auto& track : before.tracks()) first.track.value = std::max(first.track.value, track.id.value + 1);
+  perception_ =
+      std::make_unique<perception::Perception>(config_.perception, session_.id, session_.classes, first, debug_);
 }
 
 /// Before anything is taken.
@@ -196,7 +223,7 @@ void Mapper::Impl::placeWaiting(bool all) {
 
 /// One reading's way up: where was the robot, in which sub-map is that, and what do its layers take?
 void Mapper::Impl::place(const sensors::Reading& reading) {
-  if (!tellsDistances(reading.data)) return skip(nobodyTakes(reading));
+  if (!tellsDistances(reading.data)) return takeSideFile(reading);
   const auto located = [&] {
     const auto timing = times.measure("localize");
     return localizer_.locate(reading, nullptr);
@@ -207,12 +234,20 @@ void Mapper::Impl::place(const sensors::Reading& reading) {
   integrate(reading);
 }
 
+/// What another program saw in an image that has just been integrated.
+void Mapper::Impl::takeSideFile(const sensors::Reading& reading) {
+  if (!running_ || !perception_->takeSideFile(reading, running_->submap())) return skip(nobodyTakes(reading));
+  use(reading);
+}
+
 /// What the robot sees where it is now.
 void Mapper::Impl::integrate(const sensors::Reading& reading) {
   const map::PlacedReading placed{.reading = reading,
                                   .T_submap_body = running_->T_submap_body(T_travel_lastBody_),
                                   .velocity = localizer_.velocity()};
   if (!running_->integrate(placed, T_travel_lastBody_, times)) return skip(nobodyTakes(reading));
+  perception_->perceive({placed, running_->submap(), floorBelow()}, submapPoses(), times);
+  report.notLookedAt = perception_->skipped();
   use(reading);
   session_.end = reading.time;
 }
@@ -265,17 +300,28 @@ void Mapper::Impl::standUpright(const geometry::Pose3& T_upright_travel) {
 /// Finishes the running sub-map, and begins the next one below the robot.
 void Mapper::Impl::passOn(map::EdgeKind kind, const geometry::Pose3& T_travel_body, base::Time time) {
   refine();
+  perception_->finish(running_->submap(), submapPoses(), times);
   const auto node = nodeBelow(T_travel_body, time);
   const auto edge = edgeBetween(*running_, node, kind);
   const auto finished = std::exchange(running_, RunningSubMap(node, edge, config_.layers));
+  perception_->enter(node.T_travel_submap.inverse() * finished->node().T_travel_submap);
   refiner_.add(node, edge);
   ++report.submaps;
   map::MapChange change;
   change.floors = floors_.floors();
   finished->addTo(change);
+  perception_->addTo(change);
   refiner_.addTo(change, node.id, false);
   change.checkpoint = checkpoint();
   commit(std::move(change));
+}
+
+double Mapper::Impl::floorBelow() const {
+  const double height = heightAt(T_travel_lastBody_);
+  const auto& floor = floors_.current();
+  const bool isLevel = std::abs(height - floor.height) < FloorTracker::kLevelTolerance;
+  const geometry::Pose3 T_map_submap = session_.T_map_travel * running_->node().T_travel_submap;
+  return (isLevel ? floor.height : height) - T_map_submap.translation().z();
 }
 
 /// The running sub-map is complete: where it shows what was seen before, all poses become better.
@@ -336,9 +382,11 @@ void Mapper::Impl::finish(const sensors::EndOfLog& end) {
     refine();
     refiner_.settle();
     running_->refine(refiner_.T_map_submap(running_->node().id));
+    perception_->finish(running_->submap(), submapPoses(), times);
   }
   const auto last = std::exchange(running_, std::nullopt);
   if (last) last->addTo(change);
+  perception_->addTo(change);
   refiner_.addTo(change, base::SubMapId{-1}, true);
   session_.state = map::SessionState::kComplete;
   change.events.push_back({session_.end, session_.id, "session_finished", toString(session_.id), "{}"});
@@ -359,6 +407,7 @@ map::Checkpoint Mapper::Impl::checkpoint() const {
   saveTime(out, session_.end);
   out << session_.distance << clearance_;
   refiner_.save(out);
+  perception_->save(out);
   running_->save(out);
   return {session_.id, out.take()};
 }
@@ -381,6 +430,8 @@ void Mapper::Impl::load(const map::Checkpoint& checkpoint) {
   session_.end = loadTime(in);
   in >> session_.distance >> clearance_;
   refiner_.load(in);
+  perception_->load(in);
+  report.notLookedAt = perception_->skipped();
   running_.emplace(RunningSubMap::load(in, config_.layers));
 }
 
@@ -399,11 +450,14 @@ void Mapper::Impl::restore(std::vector<std::pair<std::int64_t, sensors::Reading>
 
 map::MapView Mapper::Impl::view() const {
   if (!running_) return store_.view();
-  return store_.view(running_->clone(), running_->edge());
+  auto running = running_->clone();
+  running->entities = perception_->entities();
+  return store_.view(std::move(running), running_->edge());
 }
 
-Mapper::Mapper(map::MapStore& store, const MapperConfig& config, const sensors::SourceInfo& log)
-    : impl_(std::make_unique<Impl>(store, config, log)) {}
+Mapper::Mapper(map::MapStore& store, const MapperConfig& config, const sensors::SourceInfo& log,
+               perception::DebugImages* debug)
+    : impl_(std::make_unique<Impl>(store, config, log, debug)) {}
 Mapper::~Mapper() = default;
 void Mapper::process(sensors::Reading reading) {
   impl_->process(std::move(reading));

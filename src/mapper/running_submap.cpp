@@ -64,10 +64,9 @@ void RunningSubMap::addTo(map::MapChange& change) const {
   addEvent("submap_finished", node.end, "{\"readings\": " + std::to_string(node.readings) + "}");
 }
 
-std::shared_ptr<const map::SubMap> RunningSubMap::clone() const {
+std::shared_ptr<map::SubMap> RunningSubMap::clone() const {
   auto copy = std::make_shared<map::SubMap>();
   copy->node = submap_.node;
-  copy->entities = submap_.entities;
   for (const auto& layer : submap_.layers) copy->layers.push_back(layer->clone());
   return copy;
 }

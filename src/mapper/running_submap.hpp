@@ -39,7 +39,7 @@ class RunningSubMap {
   /// What is committed of it once it is finished, its node and edge apart. The change refers to its layers.
   void addTo(map::MapChange& change) const;
   /// As it is now, for a view.
-  std::shared_ptr<const map::SubMap> clone() const;
+  std::shared_ptr<map::SubMap> clone() const;
 
   /// Saved as it began: before its first reading.
   void save(base::ByteWriter& out) const;

@@ -59,7 +59,8 @@ class MapStore {
   std::optional<Checkpoint> findCheckpoint(base::SessionId session) const;
   /// As MapView::findLayer(), of what is committed.
   std::unique_ptr<MapLayer> findLayer(base::SubMapId submap, std::string_view typeId) const;
-  /// What is committed, and, of a running mapper, the sub-map that is not yet, with the edge that leads to it.
+  /// What is committed, and, of a running mapper, the sub-map that is not yet, with the edge that leads to it. Its
+  /// entities, wherever they lie, stand for the committed ones of the same id.
   MapView view(std::shared_ptr<const SubMap> running = nullptr, const std::optional<Edge>& edgeTo = std::nullopt) const;
   /// Brings everything into the one file (no -wal beside it) as far as readers allow.
   void close();

@@ -6,6 +6,7 @@
 #include "prodomos/localization/loop_closer.hpp"
 #include "prodomos/localization/rgbd_odometry.hpp"
 #include "prodomos/map/config.hpp"
+#include "prodomos/perception/config.hpp"
 
 namespace prodomos::mapper {
 
@@ -47,6 +48,7 @@ struct MapperConfig {
   localization::RgbdOdometryConfig rgbdOdometry;
   localization::LoopCloserConfig loops;
   map::LayersConfig layers;
+  perception::PerceptionConfig perception;
 };
 
 void describe(base::ConfigVisitor& visitor, MapperConfig& config);

@@ -13,6 +13,10 @@
 #include <utility>
 #include <vector>
 
+namespace prodomos::perception {
+class DebugImages;
+}
+
 namespace prodomos::mapper {
 
 /// Where an interrupted session goes on in its log; items count from 0.
@@ -33,7 +37,9 @@ class Mapper {
   /// Begins a session in the store, or goes on with the one that is still running there (see resumePoint()). The store
   /// must outlive the mapper. Throws base::FileError where the trajectory file of the configuration cannot be read, or
   /// the running session is another version's; base::UsageError where it has another configuration.
-  Mapper(map::MapStore& store, const MapperConfig& config, const sensors::SourceInfo& log);
+  /// `debug`: takes pictures of how detectors came to their verdicts; may be null, else must outlive the mapper.
+  Mapper(map::MapStore& store, const MapperConfig& config, const sensors::SourceInfo& log,
+         perception::DebugImages* debug = nullptr);
   ~Mapper();
   Mapper(const Mapper&) = delete;
   Mapper& operator=(const Mapper&) = delete;

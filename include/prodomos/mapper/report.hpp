@@ -20,8 +20,9 @@ struct Report {
   std::vector<std::string> faults;  ///< the first few damages of the log, one line each
   std::int64_t faultCount = 0;
   int submaps = 0;
-  double distance = 0.0;  ///< metres
-  std::int64_t lost = 0;  ///< readings used whose own pose could not be estimated
+  double distance = 0.0;                            ///< metres
+  std::int64_t lost = 0;                            ///< readings used whose own pose could not be estimated
+  std::map<std::string, std::int64_t> notLookedAt;  ///< what detectors could not look at, by reason
 
   static constexpr std::size_t kMostFaults = 5;
   void addFault(const std::string& fault);

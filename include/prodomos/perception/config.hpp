@@ -13,6 +13,8 @@
 namespace prodomos::perception {
 
 struct PerceptionConfig {
+  bool enabled = true;
+  double rate = 30.0;  ///< of images that doors and stairs are looked for in, at most, 1/s of the log's time
   SurfacesConfig surfaces;
   StaircaseDetectorConfig stairs;
   DoorDetectorConfig doors;

@@ -20,6 +20,7 @@ using Covariance4 = Eigen::Matrix4d;
 /// observer (o = n·sgn(nᵀ(t − sensor))); the origin is the middle of the closed leaf, or of the opening, on the floor.
 struct DoorSighting {
   base::Time time{};
+  std::optional<base::Time> since{};  ///< of sightings in a grid: when it was begun
   geometry::Pose3 T_submap_door = geometry::Pose3::Identity();
   Covariance4 covariance = Covariance4::Zero();
   map::Door door;              ///< hingeSide and state kUnknown where this reading does not tell

@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prodomos/perception/perception.hpp"
+
+#include "prodomos/map/occupancy_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace prodomos::perception {
+
+namespace {
+
+/// Side files name the time of their image.
+constexpr base::Duration kSameImage = std::chrono::milliseconds(20);
+/// A frame that comes this much too early for its rate is taken all the same: clocks jitter.
+constexpr double kEarly = 0.8;
+
+const map::OccupancyGrid* gridOf(const map::SubMap& submap) {
+  return dynamic_cast<const map::OccupancyGrid*>(submap.findLayer(map::OccupancyGrid::kTypeId));
+}
+
+bool hasDepth(const sensors::RgbdFrame& frame) {
+  return std::ranges::any_of(frame.depth.pixels(), [](float depth) { return depth > 0.0F && std::isfinite(depth); });
+}
+
+bool sameSize(const sensors::RgbdFrame& frame) {
+  return frame.color.width() == frame.depth.width() && frame.color.height() == frame.depth.height();
+}
+
+}  // namespace
+
+class Perception::Implementation {
+ public:
+  Implementation(const PerceptionConfig& config, base::SessionId session, sensors::ClassTable classes, Ids first,
+                 DebugImages* debug)
+      : config_(config),
+        classes_(std::move(classes)),
+        debug_(debug),
+        next_(first.entity),
+        memory_(config.memory, session, [this] { return newId(); }),
+        detector_(config.people),
+        tracker_(config.people, session, first.track.value, [this] { return newId(); }) {}
+
+  void perceive(const Place& place, const EntityMemory::SubMapPoses& poses, base::StageTimes& times);
+  bool takeSideFile(const sensors::Reading& reading, const map::SubMap& submap);
+  void finish(const map::SubMap& submap, const EntityMemory::SubMapPoses& poses, base::StageTimes& times);
+  void enter(const geometry::Pose3& T_submap_before);
+  std::vector<map::Entity> entities() const;
+  void addTo(map::MapChange& change);
+  const std::map<std::string, std::int64_t>& skipped() const { return skipped_; }
+  void save(base::ByteWriter& out) const;
+  void load(base::ByteReader& in);
+
+ private:
+  /// An image whose people a side file may still tell.
+  struct Frame {
+    base::Time time{};
+    std::string sensor;
+    sensors::RgbdFrame data;
+    geometry::Pose3 T_submap_camera = geometry::Pose3::Identity();
+    double floor_z = 0.0;
+    bool isTold = false;
+  };
+
+  base::EntityId newId() { return std::exchange(next_, base::EntityId{next_.value + 1}); }
+  bool isDue(base::Time time);
+  bool hasNetworksOrLabels() const { return !config_.people.models.empty() || config_.people.fromLabels; }
+  bool seesPeople() const { return hasNetworksOrLabels() || hasSideFile_; }
+
+  void perceiveFrame(const Place& place, const sensors::RgbdFrame& frame, const EntityMemory::SubMapPoses& poses,
+                     base::StageTimes& times);
+  void findDoorsAndStairs(const RgbdView& view, base::SubMapId submap, const EntityMemory::SubMapPoses& poses,
+                          base::StageTimes& times);
+  void findPeople(const RgbdView& view, const Place& place);
+  void settleLast(const map::SubMap& submap);
+  void waitForSideFile(const RgbdView& view, const Place& place);
+  void follow(const map::SubMap& submap, base::Time time, const std::vector<PersonSighting>& sightings);
+
+  PerceptionConfig config_;
+  sensors::ClassTable classes_;
+  DebugImages* debug_;
+  int frames_ = 0;
+  std::optional<base::Time> lastLook_;
+  base::EntityId next_;
+  EntityMemory memory_;
+  PersonDetector detector_;
+  PersonTracker tracker_;
+  bool hasSideFile_ = false;
+  std::optional<Frame> last_;  // of the running sub-map; none when it is finished
+  std::map<std::string, std::int64_t> skipped_;
+};
+
+void Perception::Implementation::perceive(const Place& place, const EntityMemory::SubMapPoses& poses,
+                                          base::StageTimes& times) {
+  if (!config_.enabled) return;
+  const auto& data = place.placed.reading.data;
+  if (const auto* frame = std::get_if<sensors::RgbdFrame>(&data)) perceiveFrame(place, *frame, poses, times);
+  const auto* scan = std::get_if<sensors::LaserScan>(&data);
+  const auto time = place.placed.reading.time;
+  if (scan != nullptr && config_.people.enabled && config_.people.fromLaser && !seesPeople() && tracker_.wants(time)) {
+    const auto timing = times.measure("people");
+    const auto& T_submap_body = place.placed.T_submap_body;
+    follow(place.submap, time, findLegs(*scan, T_submap_body, time));
+  }
+}
+
+void Perception::Implementation::perceiveFrame(const Place& place, const sensors::RgbdFrame& frame,
+                                               const EntityMemory::SubMapPoses& poses, base::StageTimes& times) {
+  if (debug_ != nullptr) debug_->beginFrame(frames_);
+  ++frames_;
+  if (!hasDepth(frame)) {
+    ++skipped_["an image without depth"];
+    return;
+  }
+  if (!frame.color.empty() && !sameSize(frame)) {
+    ++skipped_["an image whose colour and depth differ in size"];
+    return;
+  }
+  if (frame.color.empty()) {
+    ++skipped_["closed doors and people: an image without colour"];
+  } else if (config_.people.enabled && !seesPeople()) {
+    ++skipped_["people: no networks to look at an image (--models)"];
+  }
+  const RgbdView view{.time = place.placed.reading.time,
+                      .frame = frame,
+                      .T_submap_camera = place.placed.T_submap_body * frame.T_body_camera,
+                      .floor_z = place.floor_z,
+                      .movers = place.placed.movers};
+  if (isDue(view.time)) findDoorsAndStairs(view, place.submap.node.id, poses, times);
+  if (!config_.people.enabled) return;
+  const auto timing = times.measure("people");
+  if (hasNetworksOrLabels() && !hasSideFile_ && tracker_.wants(view.time)) findPeople(view, place);
+  waitForSideFile(view, place);
+}
+
+bool Perception::Implementation::isDue(base::Time time) {
+  if (lastLook_ && base::seconds(time - *lastLook_) < kEarly / config_.rate) return false;
+  lastLook_ = time;
+  return true;
+}
+
+/// All sightings of one image, then a look at what was believed before.
+void Perception::Implementation::findDoorsAndStairs(const RgbdView& view, base::SubMapId submap,
+                                                    const EntityMemory::SubMapPoses& poses, base::StageTimes& times) {
+  const auto timed = [&times](const char* stage, const auto& what) {
+    const auto timing = times.measure(stage);
+    return what();
+  };
+  const auto surfaces = timed("surfaces", [&] { return findSurfaces(view, config_.surfaces); });
+  const auto stairs = timed("stairs", [&] { return findStaircases(view, surfaces, config_.stairs, debug_); });
+  auto doors = timed("doors", [&] { return findDoors(view, surfaces, config_.doors, debug_); });
+  const auto open = timed("open_doors", [&] { return findOpenDoors(view, surfaces, config_.openDoors, debug_); });
+  doors.insert(doors.end(), open.begin(), open.end());
+  const auto timing = times.measure("entities");
+  memory_.add(submap, view.T_submap_camera, doors, poses);
+  memory_.add(submap, view.T_submap_camera, stairs, poses);
+  memory_.look(submap, view, surfaces, poses);
+}
+
+void Perception::Implementation::findPeople(const RgbdView& view, const Place& place) {
+  const auto sightings =
+      config_.people.fromLabels ? detector_.findInLabels(view, classes_) : detector_.find(view, debug_);
+  follow(place.submap, view.time, sightings);
+}
+
+/// Who is not told of in an image is not in it.
+void Perception::Implementation::settleLast(const map::SubMap& submap) {
+  if (hasSideFile_ && last_ && !last_->isTold) follow(submap, last_->time, {});
+  last_.reset();
+}
+
+void Perception::Implementation::waitForSideFile(const RgbdView& view, const Place& place) {
+  settleLast(place.submap);
+  last_ = {view.time, place.placed.reading.sensor, view.frame, view.T_submap_camera, view.floor_z};
+}
+
+bool Perception::Implementation::takeSideFile(const sensors::Reading& reading, const map::SubMap& submap) {
+  const auto* joints = std::get_if<sensors::KeyPoints>(&reading.data);
+  if (!config_.enabled || !config_.people.enabled || joints == nullptr) return false;
+  hasSideFile_ = true;
+  if (!last_ || last_->isTold || last_->sensor != reading.sensor ||
+      std::chrono::abs(last_->time - reading.time) > kSameImage) {
+    return false;
+  }
+  last_->isTold = true;
+  const RgbdView view{last_->time, last_->data, last_->T_submap_camera, last_->floor_z};
+  follow(submap, view.time, detector_.find(view, *joints, debug_));
+  return true;
+}
+
+void Perception::Implementation::follow(const map::SubMap& submap, base::Time time,
+                                        const std::vector<PersonSighting>& sightings) {
+  tracker_.add(submap.node.id, time, sightings, gridOf(submap));
+}
+
+void Perception::Implementation::finish(const map::SubMap& submap, const EntityMemory::SubMapPoses& poses,
+                                        base::StageTimes& times) {
+  settleLast(submap);
+  const auto* grid = gridOf(submap);
+  if (!config_.enabled || !config_.doorways.enabled || grid == nullptr) return;
+  const auto timing = times.measure("doorways");
+  auto doorways = findDoorways(*grid, Eigen::Vector2d::Zero(), config_.doorways);
+  for (auto& doorway : doorways) {
+    doorway.time = submap.node.end;
+    doorway.since = submap.node.begin;
+  }
+  memory_.addFromGrid(submap.node.id, doorways, poses);
+}
+
+void Perception::Implementation::enter(const geometry::Pose3& T_submap_before) {
+  tracker_.enter(T_submap_before);
+}
+
+std::vector<map::Entity> Perception::Implementation::entities() const {
+  auto all = memory_.entities();
+  const auto people = tracker_.entities();
+  all.insert(all.end(), people.begin(), people.end());
+  std::ranges::sort(all, {}, &map::Entity::id);
+  return all;
+}
+
+void Perception::Implementation::addTo(map::MapChange& change) {
+  memory_.addTo(change);
+  tracker_.addTo(change);
+}
+
+void Perception::Implementation::save(base::ByteWriter& out) const {
+  out << frames_ << lastLook_.has_value();
+  if (lastLook_) out << base::toNanoseconds(*lastLook_);
+  out << next_.value << hasSideFile_;
+  out << static_cast<std::uint64_t>(skipped_.size());
+  for (const auto& [reason, count] : skipped_) out << std::string_view(reason) << count;
+  memory_.save(out);
+  tracker_.save(out);
+}
+
+void Perception::Implementation::load(base::ByteReader& in) {
+  in >> frames_;
+  lastLook_.reset();
+  if (in.read<bool>()) lastLook_ = base::fromNanoseconds(in.read<std::int64_t>());
+  in >> next_.value >> hasSideFile_;
+  skipped_.clear();
+  for (auto left = in.read<std::uint64_t>(); left > 0; --left) {
+    auto reason = in.read<std::string>();
+    skipped_[reason] = in.read<std::int64_t>();
+  }
+  memory_.load(in);
+  tracker_.load(in);
+}
+
+Perception::Perception(const PerceptionConfig& config, base::SessionId session, sensors::ClassTable classes, Ids first,
+                       DebugImages* debug)
+    : implementation_(std::make_unique<Implementation>(config, session, std::move(classes), first, debug)) {}
+Perception::~Perception() = default;
+void Perception::perceive(const Place& place, const EntityMemory::SubMapPoses& poses, base::StageTimes& times) {
+  implementation_->perceive(place, poses, times);
+}
+bool Perception::takeSideFile(const sensors::Reading& reading, const map::SubMap& submap) {
+  return implementation_->takeSideFile(reading, submap);
+}
+void Perception::finish(const map::SubMap& submap, const EntityMemory::SubMapPoses& poses, base::StageTimes& times) {
+  implementation_->finish(submap, poses, times);
+}
+void Perception::enter(const geometry::Pose3& T_submap_before) {
+  implementation_->enter(T_submap_before);
+}
+std::vector<map::Entity> Perception::entities() const {
+  return implementation_->entities();
+}
+void Perception::addTo(map::MapChange& change) {
+  implementation_->addTo(change);
+}
+const std::map<std::string, std::int64_t>& Perception::skipped() const {
+  return implementation_->skipped();
+}
+void Perception::save(base::ByteWriter& out) const {
+  implementation_->save(out);
+}
+void Perception::load(base::ByteReader& in) {
+  implementation_->load(in);
+}
+
+}  // namespace prodomos::perception
