@@ -19,6 +19,7 @@ constexpr std::size_t kMostRungs = 60;
 constexpr std::size_t kMostPoints = 500;
 constexpr double kClearlyBetter = 1.5;  // as of doors: a sub-map shows it so many times better
 constexpr double kSureOfFloor = 0.4;    // of a riser: a floor known so well is one of the steps' heights
+constexpr double kFootKnown = 0.3;      // metres along the flight
 constexpr double kPointSigma = 0.02;    // metres, of an edge in one reading
 
 double square(double value) {
@@ -249,14 +250,23 @@ void fuse(StaircaseLandmark& stairs, StaircaseLook& look, const StaircaseSightin
     look.left.add(middle + sighting.width / 2.0, 1.0);
     look.right.add(middle - sighting.width / 2.0, 1.0);
   }
-  if (sighting.footIsSeen) look.foot_z.add(origin.z(), 1.0 / square(kPointSigma));
+  // The foot is known where its place along the flight is, be it that the lowest steps are hidden.
+  const Eigen::Vector3d spread = sighting.covariance.topLeftCorner<3, 3>() * uphill;
+  if (sighting.footIsSeen || uphill.dot(spread) < square(kFootKnown)) {
+    look.foot_z.add(origin.z(), 1.0 / (square(kPointSigma) + sighting.covariance(2, 2)));
+  }
   if (sighting.newFloorSigma > 0.0) {
     auto& floor = sighting.descends ? look.foot_z : look.head_z;
     floor.add(sighting.newFloor_z, 1.0 / square(std::max(kPointSigma, sighting.newFloorSigma)));
   }
   look.evidence += sighting.evidence;
   ++look.sightings;
+  stairs.descendsNow = sighting.descends;
   keepPoints(stairs, sighting, look.submap);
+}
+
+void fuseFloorAbove(StaircaseLook& look, double floor_z) {
+  look.head_z.add(floor_z, 1.0 / square(2.0 * kPointSigma));
 }
 
 bool refresh(StaircaseLandmark& stairs, const Frames& frames, const EntityMemoryConfig& config) {

@@ -47,6 +47,7 @@ struct StaircaseLandmark : Landmark {
   double rise = 0.0;  ///< from the foot to the floor above
   double width = 0.0;
   bool widthIsWhole = false;
+  bool descendsNow = false;   ///< in the last sighting: the robot is on the floor above
   std::size_t mostSteps = 0;  ///< of one sighting: the one whose points are kept
   base::SubMapId pointsSubmap;
   std::vector<Eigen::Vector3f> points;
@@ -57,12 +58,15 @@ struct StaircaseLandmark : Landmark {
   static void fields(auto& archive, auto& self) {
     Landmark::fields(archive, self);
     archive(self.looks, self.heading, self.foot_in_submap, self.covariance, self.riser, self.depth, self.rise,
-            self.width, self.widthIsWhole, self.mostSteps, self.pointsSubmap, self.points);
+            self.width, self.widthIsWhole, self.descendsNow, self.mostSteps, self.pointsSubmap, self.points);
   }
 };
 
 /// One more sighting, as it lies in the look's sub-map.
 void fuse(StaircaseLandmark& stairs, StaircaseLook& look, const StaircaseSighting& sighting);
+
+/// The flight leads down from the floor that the robot is on.
+void fuseFloorAbove(StaircaseLook& look, double floor_z);
 
 /// Steps, foot, head and width from all looks, anchored where it was seen best. False where no two steps are known.
 bool refresh(StaircaseLandmark& stairs, const Frames& frames, const EntityMemoryConfig& config);

@@ -177,7 +177,13 @@ void StaircaseMemory::mergeIfSame(std::size_t i, std::size_t j, const Frames& fr
 void StaircaseMemory::look(const Frames& frames, const RgbdView& view, const Surfaces& surfaces) {
   if (!geometry::isFinite(view.T_submap_camera) || surfaces.depth.known() == 0) return;
   for (auto& flight : landmarks_) {
-    if (flight.lastDetected != view.time) see(flight, frames, view, surfaces);
+    if (flight.lastDetected != view.time) {
+      see(flight, frames, view, surfaces);
+    } else if (flight.descendsNow) {
+      const Eigen::Vector3d camera = view.T_submap_camera.translation();
+      fuseFloorAbove(lookFrom(flight.looks, frames.submap(), camera, config_.lookSpacing), surfaces.floor_z);
+      refresh(flight, frames, config_);
+    }
   }
 }
 
