@@ -25,7 +25,7 @@ constexpr double kReach = 4.5;  // metres along the floor to which depth tells w
 /// Shares of the spots of a strip.
 constexpr double kMostly = 0.6;
 constexpr double kHardly = 0.15;
-constexpr double kLeastKnown = 0.3;
+constexpr double kLeastKnown = 0.2;  // of a far room, sensors see the floor at least
 
 }  // namespace
 
@@ -108,17 +108,17 @@ std::vector<Gap> WallProfile::gaps(double leastWidth, double mostWidth) const {
 }
 
 double WallProfile::shareBehind(const Gap& gap, double depth) const {
-  int known = 0;
+  int inImage = 0;
   int behind = 0;
   for (int column = gap.left; column <= gap.right; ++column) {
     for (double z = kLowest; z <= kHighest; z += kSpacing) {
       const auto seen = depthBehind(xOf(column), z);
-      if (!seen || std::isnan(*seen)) continue;
-      ++known;
-      behind += *seen > depth ? 1 : 0;
+      if (!seen) continue;
+      ++inImage;
+      behind += std::isnan(*seen) || *seen > depth ? 1 : 0;  // too far to be known
     }
   }
-  return known > 0 ? static_cast<double>(behind) / known : 0.0;
+  return inImage > 0 ? static_cast<double>(behind) / inImage : 0.0;
 }
 
 std::optional<double> WallProfile::lintel(const Gap& gap) const {

@@ -40,7 +40,7 @@ class WallProfile {
 
   /// Runs of strips that are no wall between strips that are, those of which a part is open.
   std::vector<Gap> gaps(double leastWidth, double mostWidth) const;
-  /// Of the gap's known spots those that lie so far behind the wall, 0 … 1.
+  /// Of the gap's spots those that lie so far behind the wall, or too far to be known, 0 … 1.
   double shareBehind(const Gap& gap, double depth) const;
   /// Height of the lower edge of the wall above the gap, metres; none: none seen.
   std::optional<double> lintel(const Gap& gap) const;

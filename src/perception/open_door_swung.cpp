@@ -14,16 +14,18 @@ constexpr double kLeastWidth = 0.6;  // metres, of a leaf
 constexpr double kMostWidth = 1.15;
 constexpr double kLowestTop = 1.9;  // metres above the floor
 constexpr double kHighestTop = 2.35;
-constexpr double kOffWall = 0.25;   // metres between a leaf's edge and the wall's plane: jamb, frame, what is hidden
-constexpr double kStandsOut = 0.3;  // metres, at least
-constexpr double kLeastAngle = 20.0 * std::numbers::pi / 180.0;
+constexpr double kOffWall = 0.25;    // metres between a leaf's edge and the wall's plane: jamb, frame, what is hidden
+constexpr double kStandsOut = 0.12;  // metres, at least
+constexpr double kLeastAngle = 8.0 * std::numbers::pi / 180.0;
 constexpr double kMostAngle = 100.0 * std::numbers::pi / 180.0;
 constexpr double kClearAngle = 75.0 * std::numbers::pi / 180.0;  // nobody opens a door by its supplement
+
+/// Metres behind a leaf's plane that is not the leaf any more: where it is ajar, the wall is not far.
+constexpr double kFar = 0.1;
 
 /// Height at which a patch ends and one sees what is far behind it; none where the image ends before.
 std::optional<double> topOf(const WallProfile& leaf, double from, double to) {
   constexpr double kLevel = 0.05;
-  constexpr double kFar = 0.3;  // metres
   for (double z = kLowestTop - 0.2; z <= kHighestTop; z += kLevel) {
     int inImage = 0;
     int past = 0;
@@ -41,7 +43,6 @@ std::optional<double> topOf(const WallProfile& leaf, double from, double to) {
 
 /// Whether one sees far past an edge, at once: cupboards have a front there.
 bool isFreeEdge(const WallProfile& leaf, double x, double onward) {
-  constexpr double kFar = 0.25;  // metres
   int known = 0;
   int past = 0;
   for (const double step : {0.06, 0.10, 0.14}) {
@@ -107,7 +108,8 @@ std::optional<SwungLeaf> findSwungLeaf(const WallProfile& wall, const WallProfil
   swung.hinge.leafWidth = (free - axis).norm();
   if (swung.hinge.leafWidth < kLeastWidth || swung.hinge.leafWidth > kMostWidth) return std::nullopt;
   if (!isFreeEdge(leaf, hangsLeft ? edges.right : edges.left, hangsLeft ? 1.0 : -1.0)) return std::nullopt;
-  const auto top = topOf(leaf, edges.left + 0.1, edges.right - 0.1);
+  const double middle = 0.5 * (edges.left + edges.right);  // at the hinge, the wall is near
+  const auto top = hangsLeft ? topOf(leaf, middle, edges.right - 0.1) : topOf(leaf, edges.left + 0.1, middle);
   if (!top || *top < kLowestTop) return std::nullopt;
   swung.top = *top;
 
