@@ -240,13 +240,14 @@ std::vector<StaircaseSighting> findStaircases(const RgbdView& view, const Surfac
     std::optional<Plane> slope = findSlope(material.voxels, view.T_submap_camera.translation(), random);
     if (!slope) break;
     const std::vector<StairCell> slab = slabOf(*slope, material.voxels);
-    if (slab.size() >= kLeastPoints && isSlope(*slope, view.T_submap_camera.translation())) {
-      if (auto sighting = flightOn(*slope, slab, view, surfaces, material)) {
-        removeFlight(*sighting, material);
-        sightings.push_back(std::move(*sighting));
-      }
+    const bool isLikely = slab.size() >= kLeastPoints && isSlope(*slope, view.T_submap_camera.translation());
+    auto sighting = isLikely ? flightOn(*slope, slab, view, surfaces, material) : std::nullopt;
+    if (sighting) {
+      removeFlight(*sighting, material);
+      sightings.push_back(std::move(*sighting));
+    } else {
+      removeSlab(*slope, material.voxels);
     }
-    removeSlab(*slope, material.voxels);
   }
   if (debug != nullptr && debug->isWanted()) debug->add("stairs", drawStaircases(view, surfaces, sightings));
   return sightings;

@@ -17,6 +17,7 @@ constexpr std::size_t kJudges = 120;  // points that judge a lattice in the sear
 constexpr int kPhases = 10;           // in which the search tries each size
 constexpr double kNextDepth = 1.07;   // from one size to the next
 constexpr int kRefits = 6;            // least squares, each with the points assigned anew
+constexpr double kFrontSigma = 0.04;  // metres: voxels are as far apart
 constexpr double kTrust = 0.02;       // metres; a size that no point tells stays as the search has it
 
 /// Points in single precision, an array for each coordinate.
@@ -89,6 +90,43 @@ FoundLattice search(std::span<const FlightPoint> points, double slope) {
   return best;
 }
 
+/// The front edges of treads, column by column across. Where risers are hidden, as in views from above, they alone tell
+/// where steps begin.
+class Fronts {
+ public:
+  Fronts() : fronts_(static_cast<std::size_t>(kSteps * kColumns)) {}
+
+  void add(int step, const Eigen::Vector3d& point) {
+    const int column = static_cast<int>(std::floor(point.y() / kColumn)) + kColumns / 2;
+    const int row = step + kSteps / 2;
+    if (column < 0 || column >= kColumns || row < 0 || row >= kSteps) return;
+    Front& front = fronts_[static_cast<std::size_t>(row * kColumns + column)];
+    front.x = std::min(front.x, point.x());
+    ++front.points;
+  }
+  /// Calls use(step, x, y) for each.
+  template <typename Use>
+  void each(const Use& use) const {
+    for (int i = 0; i < kSteps * kColumns; ++i) {
+      const Front& front = fronts_[static_cast<std::size_t>(i)];
+      if (front.points < kLeast) continue;
+      use(i / kColumns - kSteps / 2, front.x, (i % kColumns - kColumns / 2 + 0.5) * kColumn);
+    }
+  }
+
+ private:
+  static constexpr int kSteps = 60;
+  static constexpr int kColumns = 30;
+  static constexpr double kColumn = 0.2;  // metres
+  static constexpr int kLeast = 3;        // points of one
+
+  struct Front {
+    double x = std::numeric_limits<double>::infinity();
+    int points = 0;
+  };
+  std::vector<Front> fronts_;
+};
+
 /// Least squares of risers (x = riser_x + k depth + skew y) and treads (z = tread_z + k rise), weakly held where they
 /// are. Returns the skew: the tangent of the turn that is left.
 double refine(StepLattice& lattice, std::span<const FlightPoint> points) {
@@ -97,21 +135,28 @@ double refine(StepLattice& lattice, std::span<const FlightPoint> points) {
   Eigen::Vector3d riserProducts(trust * lattice.riser_x, trust * lattice.depth, 0.0);
   Eigen::Matrix2d treadSquares = trust * Eigen::Matrix2d::Identity();
   Eigen::Vector2d treadProducts = trust * Eigen::Vector2d(lattice.tread_z, lattice.rise);
+  const auto addRiser = [&](int step, double x, double y, double weight) {
+    const Eigen::Vector3d row(1.0, step, y);
+    riserSquares.noalias() += weight * row * row.transpose();
+    riserProducts += weight * x * row;
+  };
+  Fronts fronts;
   for (const FlightPoint& p : points) {
+    const int level = static_cast<int>(std::lround((p.point.z() - lattice.tread_z) / lattice.rise));
+    if (std::abs(p.point.z() - lattice.treadAt(level)) < 0.01 + p.sigma) fronts.add(level, p.point);
     const StepPlace place = lattice.placeOf(p.point.x(), p.point.z());
     if (place.distance > 0.02 + 2.0 * p.sigma) continue;
     const double sigma = 0.01 + p.sigma;
     const double weight = 1.0 / (sigma * sigma);
     if (place.part == StepPart::kRiser) {
-      const Eigen::Vector3d row(1.0, place.step, p.point.y());
-      riserSquares.noalias() += weight * row * row.transpose();
-      riserProducts += weight * p.point.x() * row;
+      addRiser(place.step, p.point.x(), p.point.y(), weight);
     } else {
       const Eigen::Vector2d row(1.0, place.step);
       treadSquares.noalias() += weight * row * row.transpose();
       treadProducts += weight * p.point.z() * row;
     }
   }
+  fronts.each([&](int step, double x, double y) { addRiser(step, x, y, 1.0 / (kFrontSigma * kFrontSigma)); });
   const Eigen::Vector3d riser = riserSquares.ldlt().solve(riserProducts);
   const Eigen::Vector2d tread = treadSquares.ldlt().solve(treadProducts);
   lattice = {riser.x(), tread.x(), riser.y(), tread.y()};

@@ -156,8 +156,8 @@ ProfileCheck::Count ProfileCheck::riser(int step, double y) const {
   Count count;
   if (T_flight_camera_.translation().x() > lattice_.riserAt(step)) return count;
   for (const double share : {0.3, 0.7}) {
-    count +=
-        at({lattice_.riserAt(step), y, lattice_.treadAt(step) - share * lattice_.rise}, Eigen::Vector3d::UnitX(), 0.0);
+    const Eigen::Vector3d spot(lattice_.riserAt(step), y, lattice_.treadAt(step) - share * lattice_.rise);
+    if (!isBehind(step - 1, spot)) count += at(spot, Eigen::Vector3d::UnitX(), 0.0);
   }
   return count;
 }
@@ -166,10 +166,16 @@ ProfileCheck::Count ProfileCheck::tread(int step, double y, double tolerance) co
   Count count;
   if (T_flight_camera_.translation().z() < lattice_.treadAt(step)) return count;
   for (const double share : {0.3, 0.7}) {
-    count += at({lattice_.riserAt(step) + share * lattice_.depth, y, lattice_.treadAt(step)}, Eigen::Vector3d::UnitZ(),
-                tolerance);
+    const Eigen::Vector3d spot(lattice_.riserAt(step) + share * lattice_.depth, y, lattice_.treadAt(step));
+    if (!isBehind(step + 1, spot)) count += at(spot, Eigen::Vector3d::UnitZ(), tolerance);
   }
   return count;
+}
+
+bool ProfileCheck::isBehind(int step, const Eigen::Vector3d& spot) const {
+  const Eigen::Vector3d eye = T_flight_camera_.translation();
+  const double share = (lattice_.riserAt(step) - spot.x()) / (eye.x() - spot.x());  // of the way to the eye
+  return share > 0.0 && share < 1.0 && spot.z() + share * (eye.z() - spot.z()) < lattice_.treadAt(step);
 }
 
 ProfileCheck::Count ProfileCheck::at(const Eigen::Vector3d& spot, const Eigen::Vector3d& normal,

@@ -42,6 +42,8 @@ class ProfileCheck {
   std::optional<double> depthBehind(const Eigen::Vector3d& point_in_flight) const;
 
  private:
+  /// Does the edge of that step hide the spot from the camera?
+  bool isBehind(int step, const Eigen::Vector3d& spot_in_flight) const;
   Count at(const Eigen::Vector3d& spot_in_flight, const Eigen::Vector3d& normal, double tolerance) const;
 
   const sensors::DepthGrid& grid_;
