@@ -35,10 +35,11 @@ constexpr double kShareOfLook = 0.5;
 constexpr base::Duration kLongestGap = std::chrono::milliseconds(1000);
 constexpr int kLeastSightings = 3;
 constexpr double kMostDoubt = 0.1;
-constexpr double kLeastWay = 0.6;        ///< metres, of who must move
-constexpr double kLateralReach = 3.0;    ///< metres that sides are looked at
-constexpr double kBodyRadius = 0.35;     ///< metres; cells nearer are the person's own
-constexpr double kSideDifference = 0.1;  ///< metres, between the clearances of two sides
+constexpr double kLeastWay = 1.0;                                     ///< metres, of who must move,
+constexpr base::Duration kWayTime = std::chrono::milliseconds(2500);  ///< in no more than that
+constexpr double kLateralReach = 3.0;                                 ///< metres that sides are looked at
+constexpr double kBodyRadius = 0.35;                                  ///< metres; cells nearer are the person's own
+constexpr double kSideDifference = 0.1;                               ///< metres, between the clearances of two sides
 
 bool isKnown(const Appearance& appearance) {
   return std::ranges::any_of(appearance, [](float share) { return share > 0.0F; });
@@ -92,6 +93,7 @@ PersonTrack::PersonTrack(base::SubMapId submap, const PersonSighting& sighting)
       time_(sighting.time),
       mustMove_(sighting.mustMove),
       start_(sighting.position_in_submap.head<2>()),
+      startTime_(sighting.time),
       firstSeen_(sighting.time) {
   state_.head<2>() = start_;
   covariance_.setZero();
@@ -159,12 +161,20 @@ void PersonTrack::update(base::SubMapId submap, const PersonSighting& sighting) 
   ++sightings_;
   scores_ += sighting.score;
   doubt_ *= 1.0 - 0.5 * sighting.score;
-  mustMove_ = mustMove_ && sighting.mustMove && (position() - start_).norm() < kLeastWay;
+  if (mustMove_) watchForMotion(sighting);
   const FollowedState now = stateNow(submap, sighting);
   fillGap(now);
   last_ = now;
   pending_.push_back(now);
   hasChanged = true;
+}
+
+/// Clutter in which now this pair is seen and now that one creeps; people walk.
+void PersonTrack::watchForMotion(const PersonSighting& sighting) {
+  mustMove_ = sighting.mustMove && (position() - start_).norm() < kLeastWay;
+  if (sighting.time - startTime_ <= kWayTime) return;
+  start_ = position();
+  startTime_ = sighting.time;
 }
 
 void PersonTrack::updatePosition(const PersonSighting& sighting) {
@@ -318,8 +328,8 @@ void PersonTrack::save(base::ByteWriter& out) const {
   out.append(covariance_.data(), sizeof(double) * 16);
   out << floor_z_ << base::toNanoseconds(time_) << heading_ << headingVariance_ << front_ << hasHeading_;
   out.append(appearance_.data(), sizeof appearance_);
-  out << doubt_ << scores_ << sightings_ << mustMove_ << start_.x() << start_.y() << base::toNanoseconds(firstSeen_)
-      << sides_;
+  out << doubt_ << scores_ << sightings_ << mustMove_ << start_.x() << start_.y() << base::toNanoseconds(startTime_)
+      << base::toNanoseconds(firstSeen_) << sides_;
   out.append(&last_, sizeof last_);
   out << missed_ << pending_ << track.value << entityId.value << hasChanged;
 }
@@ -328,13 +338,15 @@ void PersonTrack::load(base::ByteReader& in) {
   in.take(state_.data(), sizeof(double) * 4);
   in.take(covariance_.data(), sizeof(double) * 16);
   std::int64_t time = 0;
+  std::int64_t startTime = 0;
   std::int64_t firstSeen = 0;
   in >> floor_z_ >> time >> heading_ >> headingVariance_ >> front_ >> hasHeading_;
   in.take(appearance_.data(), sizeof appearance_);
-  in >> doubt_ >> scores_ >> sightings_ >> mustMove_ >> start_.x() >> start_.y() >> firstSeen >> sides_;
+  in >> doubt_ >> scores_ >> sightings_ >> mustMove_ >> start_.x() >> start_.y() >> startTime >> firstSeen >> sides_;
   in.take(&last_, sizeof last_);
   in >> missed_ >> pending_ >> track.value >> entityId.value >> hasChanged;
   time_ = base::fromNanoseconds(time);
+  startTime_ = base::fromNanoseconds(startTime);
   firstSeen_ = base::fromNanoseconds(firstSeen);
 }
 

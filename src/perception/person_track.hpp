@@ -73,6 +73,7 @@ class PersonTrack {
   bool hasChanged = false;  ///< since the entity was written
 
  private:
+  void watchForMotion(const PersonSighting& sighting);
   void updatePosition(const PersonSighting& sighting);
   void updateHeading(const PersonSighting& sighting);
   void mergeHeading(double heading, double sigma, double facing);
@@ -93,7 +94,8 @@ class PersonTrack {
   double scores_ = 0.0;
   int sightings_ = 0;
   bool mustMove_ = false;
-  Eigen::Vector2d start_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d start_ = Eigen::Vector2d::Zero();  ///< where it was a moment ago,
+  base::Time startTime_{};                           ///< and when
   base::Time firstSeen_{};
   double sides_ = 0.0;  ///< readings in which the right side was nearer to something, less those with the left
   FollowedState last_;  ///< where it was seen last

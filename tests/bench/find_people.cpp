@@ -16,8 +16,9 @@
 #include "prodomos/simulation/ray_scene.hpp"
 #include "prodomos/simulation/renderer.hpp"
 
+#include "perception/people_networks.hpp"
+
 #include <CLI/CLI.hpp>
-#include <opencv2/dnn.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -116,11 +117,6 @@ simulation::Person personOf(const Shot& shot, double& time) {
 
 // --- What is found ---------------------------------------------------------------------------------------------------
 
-struct Detection {
-  cv::Rect2d box;
-  float score = 0.0F;
-};
-
 cv::Mat bgrOf(const sensors::Image<sensors::Rgb>& image) {
   cv::Mat bgr(image.height(), image.width(), CV_8UC3);
   for (int y = 0; y < image.height(); ++y) {
@@ -137,61 +133,9 @@ double overlap(const cv::Rect2d& a, const cv::Rect2d& b) {
   return common / (a.area() + b.area() - common);
 }
 
-/// Persons: class 0 of both detectors.
-std::vector<Detection> detect(cv::dnn::Net& net, const cv::Mat& image) {
-  net.setInput(cv::dnn::blobFromImage(image, 1.0 / 255.0, {320, 320}, {}, true));
-  std::vector<cv::Mat> outputs;
-  net.forward(outputs, net.getUnconnectedOutLayersNames());
-  std::vector<cv::Rect2d> boxes;
-  std::vector<float> scores;
-  for (const cv::Mat& output : outputs) {
-    for (int i = 0; i < output.rows; ++i) {
-      // Middle and size as shares of the image, objectness, scores by class.
-      const float* row = output.ptr<float>(i);
-      if (row[5] < 0.1F) continue;
-      const cv::Size2d size(double{row[2]} * image.cols, double{row[3]} * image.rows);
-      const cv::Point2d middle(double{row[0]} * image.cols, double{row[1]} * image.rows);
-      boxes.emplace_back(middle - cv::Point2d(size) / 2.0, size);
-      scores.push_back(row[5]);
-    }
-  }
-  std::vector<int> kept;
-  cv::dnn::NMSBoxes(boxes, scores, 0.1F, 0.45F, kept);
-  std::vector<Detection> detections;
-  detections.reserve(kept.size());
-  for (const int i : kept) {
-    detections.push_back({boxes[static_cast<std::size_t>(i)], scores[static_cast<std::size_t>(i)]});
-  }
-  return detections;
-}
-
-bool isFound(const std::vector<Detection>& detections, const cv::Rect2d& box) {
-  return std::ranges::any_of(detections,
-                             [&](const auto& found) { return found.score > 0.5F && overlap(found.box, box) >= 0.5; });
-}
-
-/// The estimator sees a square around the box, a quarter larger, black beyond the picture.
-std::array<cv::Point2d, evaluation::kJointCount> estimatePose(cv::dnn::Net& net, const cv::Mat& image,
-                                                              const cv::Rect2d& box) {
-  constexpr int kInput = 192;
-  const double size = 1.25 * std::max(box.width, box.height);
-  const cv::Point2d corner = (box.tl() + box.br()) / 2.0 - cv::Point2d(size, size) / 2.0;
-  const double scale = kInput / size;
-  const cv::Matx23d toInput(scale, 0.0, -corner.x * scale, 0.0, scale, -corner.y * scale);
-  cv::Mat input;
-  cv::warpAffine(image, input, toInput, {kInput, kInput}, cv::INTER_LINEAR);
-  net.setInput(cv::dnn::blobFromImage(input));
-  const cv::Mat heat = net.forward("hourglass_out_3");  // 1 x joints x rows x columns
-  std::array<cv::Point2d, evaluation::kJointCount> joints;
-  for (int j = 0; j < evaluation::kJointCount; ++j) {
-    cv::Mat smooth;
-    cv::GaussianBlur(cv::Mat(heat.size[2], heat.size[3], CV_32F, const_cast<float*>(heat.ptr<float>(0, j))), smooth,
-                     {5, 5}, 0.0);
-    cv::Point peak;
-    cv::minMaxLoc(smooth, nullptr, nullptr, nullptr, &peak);
-    joints[static_cast<std::size_t>(j)] = corner + (cv::Point2d(peak) + cv::Point2d(0.5, 0.5)) * (size / heat.size[3]);
-  }
-  return joints;
+bool isFound(const std::vector<perception::PersonBox>& boxes, const cv::Rect2d& box) {
+  return std::ranges::any_of(boxes,
+                             [&](const auto& found) { return found.score > 0.5 && overlap(found.box, box) >= 0.5; });
 }
 
 // --- Scores ----------------------------------------------------------------------------------------------------------
@@ -240,18 +184,10 @@ void printHead() {
 }
 
 struct Models {
-  explicit Models(const std::filesystem::path& folder)
-      : body(read(folder, "yolo-fastest-1.1_body")),
-        classes(read(folder, "yolo-fastest-1.1")),
-        pose(cv::dnn::readNetFromTensorflow((folder / "hourglass_pose14.pb").string())) {}
+  explicit Models(const std::filesystem::path& folder) : boxes(folder), joints(folder) {}
 
-  static cv::dnn::Net read(const std::filesystem::path& folder, const std::string& name) {
-    return cv::dnn::readNetFromDarknet((folder / (name + ".cfg")).string(), (folder / (name + ".weights")).string());
-  }
-
-  cv::dnn::Net body;
-  cv::dnn::Net classes;
-  cv::dnn::Net pose;
+  perception::PersonBoxes boxes;
+  perception::JointFinder joints;
 };
 
 struct Picture {
@@ -314,31 +250,31 @@ using JointOffsets = std::array<std::pair<cv::Point2d, int>, evaluation::kJointC
 
 Score scoreOf(const Picture& picture, Models& models, JointOffsets& offsets, cv::Mat& drawing) {
   Score score{.shots = 1};
-  const auto byBody = detect(models.body, picture.image);
+  const auto byBody = models.boxes.byBody(picture.image);
   score.foundByBody = isFound(byBody, picture.box) ? 1 : 0;
-  score.foundByClass = isFound(detect(models.classes, picture.image), picture.box) ? 1 : 0;
-  const auto joints = estimatePose(models.pose, picture.image, picture.box);
+  score.foundByClass = isFound(models.boxes.byClass(picture.image), picture.box) ? 1 : 0;
+  const auto joints = models.joints.find(picture.image, picture.box);
   drawing = picture.image.clone();
   cv::rectangle(drawing, picture.box, {0, 200, 0});
   for (const auto& found : byBody) {
-    cv::rectangle(drawing, found.box, {0, 0, 255}, found.score > 0.5F ? 2 : 1);
+    cv::rectangle(drawing, found.box, {0, 0, 255}, found.score > 0.5 ? 2 : 1);
     cv::putText(drawing, cv::format("%.2f", found.score), found.box.tl() + cv::Point2d(2, 12), cv::FONT_HERSHEY_PLAIN,
                 1.0, {0, 0, 255});
   }
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (!picture.joints[j]) continue;
-    const cv::Point2d off = joints[j] - *picture.joints[j];
+    const cv::Point2d off = joints[j].pixel - *picture.joints[j];
     const double error = std::hypot(off.x, off.y);
     ++score.joints;
     score.jointError += error;
     const double near = 0.2 * picture.torso;
-    const cv::Point2d other = joints[opposite(j)] - *picture.joints[j];
+    const cv::Point2d other = joints[opposite(j)].pixel - *picture.joints[j];
     if (error <= near) ++score.jointsNear;
     if (std::min(error, std::hypot(other.x, other.y)) <= near) ++score.jointsNearEitherSide;
     offsets[j].first += off / picture.torso;
     ++offsets[j].second;
     cv::circle(drawing, *picture.joints[j], 2, {0, 255, 0}, cv::FILLED);
-    cv::line(drawing, *picture.joints[j], joints[j], {255, 0, 255});
+    cv::line(drawing, *picture.joints[j], joints[j].pixel, {255, 0, 255});
   }
   return score;
 }
