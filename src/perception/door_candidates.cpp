@@ -164,6 +164,7 @@ class Examination {
   int first_ = 0;
   int last_ = 0;
   double surround_y_ = 0.0;
+  double known_ = 0.0;            ///< share of the leaf whose depth is known
   double sigma_ = 0.0;            ///< of one block's offset
   double height_ = kUsualHeight;  ///< of the leaf, as far as known
 };
@@ -189,6 +190,7 @@ bool Examination::hasDepthOfLeaf() {
   const double range = wall_.rangeAt(middle);
   sigma_ = 0.5 * sensors::depthSigma(range) * std::cos(wall_.obliquenessAt(middle)) + 0.004;
   auto offsets = offsetsIn(wall_, leaf);
+  known_ = static_cast<double>(offsets.size()) / visible;
   constexpr std::size_t kEnough = 12;
   if (offsets.size() < kEnough) {
     found_.leafSigma = 0.05;
@@ -219,6 +221,12 @@ void Examination::place() {
   const auto more = offsetsIn(wall_, right);
   around.insert(around.end(), more.begin(), more.end());
   std::erase_if(around, [](float y) { return std::abs(y) > 0.3F; });
+  const auto blocks = [](const Box& box) {
+    return (box.last - box.first) * (box.bottom - box.top) / (RectifiedWall::kBlock * RectifiedWall::kBlock);
+  };
+  const int beside = blocks(clipped(left, wall_)) + blocks(clipped(right, wall_));
+  if (beside > 0)
+    found_.cue(Cue::kDepthless) = (1.0 - known_) * std::min(1.0, static_cast<double>(around.size()) / beside);
   const bool isKnown = around.size() > 8;
   surround_y_ = isKnown ? median(around) : found_.leaf_y;
   const double deeper = found_.leaf_y - surround_y_;
@@ -270,7 +278,10 @@ void Examination::lookAtTop() {
     for (int i = -3; i <= 3; ++i) most = std::max(most, edges_.levelEdge(row + i, from, to));
     return most;
   };
-  found_.cue(Cue::kTopBeyond) = 0.5 * (beyond(first_ - far, first_ - near) + beyond(last_ + near, last_ + far));
+  const double left = beyond(first_ - far, first_ - near);
+  const double right = beyond(last_ + near, last_ + far);
+  found_.cue(Cue::kTopBeyond) = 0.5 * (left + right);
+  found_.cue(Cue::kTopBeyondBoth) = std::min(left, right);
 }
 
 bool Examination::lookAtJambs() {
@@ -279,15 +290,20 @@ bool Examination::lookAtJambs() {
   double worse = 1.0;
   double better = 0.0;
   int seenRows = 0;
+  int hiddenSides = 0;
   for (const UprightLine* line : {&found_.leftLine, &found_.rightLine}) {
     int visible = 0;
     int supported = 0;
+    int hidden = 0;
+    const int outside = (line == &found_.leftLine ? -1 : 1) * (RectifiedWall::kBlock + 2);
     for (int row = top; row < bottom; ++row) {
       const int column = static_cast<int>(std::lround(line->columnAt(row)));
       if (column < 2 || column >= wall_.width() - 2) continue;
       if (!isVisible(wall_.seen(column, row))) continue;
       ++visible;
       supported += edges_.support(*line, row, row + 1) > 0.0 ? 1 : 0;
+      const int beside = std::clamp(column + outside, 0, wall_.width() - 1);
+      hidden += wall_.seen(beside, row) == Seen::kHiding ? 1 : 0;
     }
     constexpr int kLeastRows = 40;  // 60 cm
     if (visible < kLeastRows) return false;
@@ -295,11 +311,13 @@ bool Examination::lookAtJambs() {
     worse = std::min(worse, share);
     better = std::max(better, share);
     seenRows += visible;
+    if (2 * hidden > visible) ++hiddenSides;
   }
   constexpr double kLeastShare = 0.4;
   if (worse < kLeastShare) return false;
   found_.cue(Cue::kWeakerJamb) = worse;
   found_.cue(Cue::kStrongerJamb) = better;
+  found_.cue(Cue::kHidden) = hiddenSides;
   found_.cue(Cue::kCut) = 1.0 - seenRows / (2.0 * std::max(1, bottom - top));
   return true;
 }

@@ -19,6 +19,7 @@ enum class Cue : std::uint8_t {
   kStrongerJamb,   ///< of the better one's
   kTop,            ///< share of a level edge between the jambs at a door's height
   kTopBeyond,      ///< share of it that goes on outside of the jambs: a dado, a row of lockers, a ledge
+  kTopBeyondBoth,  ///< on both sides
   kNoTop,          ///< 1: its height is seen, and there is no level edge
   kSkirting,       ///< an edge as that of a skirting runs through below
   kSkirtingAlike,  ///< what is below looks like the foot of the wall outside
@@ -27,6 +28,7 @@ enum class Cue : std::uint8_t {
   kClutter,        ///< density of edges in it
   kEdgeOfLeaf,     ///< share of the strips beside the jambs that has the leaf's colour
   kFlat,           ///< share of known depths that lie in its plane
+  kDepthless,      ///< its depth is not known, that of the wall around it is: one sees through
   kTurned,         ///< how far one side lies behind the other
   kStandsOut,      ///< it lies before the wall around it: a panel, a poster, a board
   kRecessed,       ///< it lies behind it
@@ -39,6 +41,7 @@ enum class Cue : std::uint8_t {
   kCut,            ///< share of its outline that is not seen
   kLineInside,     ///< share of a further line just inside of the jambs: these may be the frame's outer edges
   kLineOutside,    ///< share of one just outside of both: as of a frame
+  kHidden,         ///< of its sides, how many are where something hides the wall
   kCount,
 };
 using Cues = std::array<double, static_cast<std::size_t>(Cue::kCount)>;

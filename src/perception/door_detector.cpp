@@ -41,7 +41,8 @@ DoorSighting sightingOf(const RgbdView& view, const RectifiedWall& wall, const D
   const double x = 0.5 * (candidate.left_x + candidate.right_x);
   // The door's axes: x away from the observer, y to the left, z up.
   const geometry::Pose3& T_submap_wall = wall.wall().T_submap_wall;
-  sighting.T_submap_door.linear() << T_submap_wall.linear().col(1), -T_submap_wall.linear().col(0), Vector3d::UnitZ();
+  const Vector3d along = T_submap_wall.linear().col(0);
+  sighting.T_submap_door.linear() << Vector3d::UnitZ().cross(along), -along, Vector3d::UnitZ();
   sighting.T_submap_door.translation() = T_submap_wall * Vector3d(x, candidate.leaf_y, 0.0);
   sighting.door.width = candidate.width();
   sighting.door.height = candidate.top_z;
@@ -69,16 +70,35 @@ DoorSighting sightingOf(const RgbdView& view, const RectifiedWall& wall, const D
   return sighting;
 }
 
-/// Of doors that overlap in a wall, the one that has most evidence.
+/// Whether two pairs stand for the same door, of which one may have the frame's edges for the leaf's.
+bool isRival(const DoorCandidate& a, const DoorCandidate& b) {
+  constexpr double kFrame = 0.14;  // metres, of a frame and what blur adds
+  return a.leaves == b.leaves && std::abs(a.left_x - b.left_x) < kFrame && std::abs(a.right_x - b.right_x) < kFrame;
+}
+
+/// Of pairs that overlap, those that most likely are a door; of its rivals the one that fits its jambs best.
 void keepStrongest(std::vector<Judged>& pairs) {
-  std::ranges::stable_sort(pairs, std::greater{}, &Judged::evidence);
+  constexpr double kClear = 3.0;      // log-odds by which rivals may be less likely
+  constexpr double kTwoLeaves = 2.0;  // log-odds; each leaf of a double door looks like a door
+  constexpr double kOverlap = 0.1;    // metres
+  const auto rank = [](const Judged& pair) { return pair.evidence + kTwoLeaves * (pair.candidate.leaves - 1); };
+  std::ranges::stable_sort(pairs, std::greater{}, rank);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (!pairs[i].accepted) continue;
+    const double evidence = pairs[i].evidence;
+    std::size_t best = i;
     for (std::size_t j = i + 1; j < pairs.size(); ++j) {
-      const DoorCandidate& a = pairs[i].candidate;
-      const DoorCandidate& b = pairs[j].candidate;
-      const double common = std::min(a.right_x, b.right_x) - std::max(a.left_x, b.left_x);
-      if (!pairs[j].accepted || common < 0.1) continue;
+      const bool isInReach = pairs[j].accepted && pairs[j].evidence > evidence - kClear;
+      if (!isInReach || !isRival(pairs[i].candidate, pairs[j].candidate)) continue;
+      if (fitOf(pairs[j].candidate) > fitOf(pairs[best].candidate)) best = j;
+    }
+    std::swap(pairs[i], pairs[best]);
+    pairs[i].evidence = evidence;
+    const DoorCandidate& chosen = pairs[i].candidate;
+    for (std::size_t j = i + 1; j < pairs.size(); ++j) {
+      const DoorCandidate& other = pairs[j].candidate;
+      const double common = std::min(chosen.right_x, other.right_x) - std::max(chosen.left_x, other.left_x);
+      if (!pairs[j].accepted || common < kOverlap) continue;
       pairs[j].accepted = false;
       pairs[j].word = "less likely";
     }

@@ -14,53 +14,130 @@ namespace prodomos::perception {
 
 namespace {
 
-/// Pixels on each side that a difference is taken of: oblique and distant walls are blurred by so much.
-constexpr int kSide = 2;
+/// Pixels on each side of an edge that a difference is taken of, at least.
+constexpr int kLeastSide = 2;
+constexpr int kMostSide = 8;
 
-/// Differences of the two pixels after and the two before, halved; of the three channels the greatest. `step` leads to
-/// the neighbour across the edge, in elements.
-cv::Mat differences(const cv::Mat& color, bool across) {
+/// Per column; where a pixel of the camera covers much of the wall, edges are blurred.
+std::vector<int> sidesOf(const RectifiedWall& wall) {
+  constexpr double kBlur = 0.8;  // camera pixels
+  std::vector<int> sides;
+  for (int column = 0; column < wall.width(); ++column) {
+    const double pixels = kBlur * wall.footprintAt(wall.xOf(column)) / RectifiedWall::kPixel;
+    const int room = std::min(column, wall.width() - 1 - column);
+    sides.push_back(std::min(std::clamp(static_cast<int>(std::lround(pixels)), kLeastSide, kMostSide), room));
+  }
+  return sides;
+}
+
+/// In the channel where it is greatest: of the means of `side` pixels on either side.
+cv::Mat differencesAcross(const cv::Mat& color, const std::vector<int>& sides) {
   cv::Mat smooth;
-  cv::blur(color, smooth, across ? cv::Size(1, 3) : cv::Size(3, 1));
+  cv::blur(color, smooth, cv::Size(1, 3));
   cv::Mat result(color.size(), CV_16S, cv::Scalar(0));
-  const auto pitch = static_cast<std::ptrdiff_t>(smooth.step1());
-  const std::ptrdiff_t step = across ? 3 : pitch;
-  const int marginX = across ? kSide : 0;
-  const int marginY = across ? 0 : kSide;
-  for (int row = marginY; row < color.rows - marginY; ++row) {
-    const std::uint8_t* pixel = smooth.ptr<std::uint8_t>(row) + 3 * marginX;
+  std::vector<std::array<int, 3>> sums(static_cast<std::size_t>(color.cols) + 1);
+  for (int row = 0; row < color.rows; ++row) {
+    const auto* pixel = smooth.ptr<cv::Vec3b>(row);
+    for (std::size_t i = 0; i + 1 < sums.size(); ++i) {
+      for (std::size_t channel = 0; channel < 3; ++channel) {
+        sums[i + 1][channel] = sums[i][channel] + pixel[i][static_cast<int>(channel)];
+      }
+    }
     auto* out = result.ptr<std::int16_t>(row);
-    for (int column = marginX; column < color.cols - marginX; ++column, pixel += 3) {
+    for (int column = kLeastSide; column < color.cols - kLeastSide; ++column) {
+      const auto at = static_cast<std::size_t>(column);
+      const auto side = static_cast<std::size_t>(sides[at]);
+      int greatest = 0;
+      for (std::size_t channel = 0; channel < 3; ++channel) {
+        const int difference =
+            sums[at + 1 + side][channel] - sums[at + 1][channel] - sums[at][channel] + sums[at - side][channel];
+        if (std::abs(difference) > std::abs(greatest)) greatest = difference;
+      }
+      out[column] = static_cast<std::int16_t>(greatest / sides[at]);
+    }
+  }
+  return result;
+}
+
+/// The same downwards.
+cv::Mat differencesDown(const cv::Mat& color) {
+  cv::Mat smooth;
+  cv::blur(color, smooth, cv::Size(3, 1));
+  cv::Mat result(color.size(), CV_16S, cv::Scalar(0));
+  const auto step = static_cast<std::ptrdiff_t>(smooth.step1());
+  for (int row = kLeastSide; row < color.rows - kLeastSide; ++row) {
+    const auto* pixel = smooth.ptr<std::uint8_t>(row);
+    auto* out = result.ptr<std::int16_t>(row);
+    for (int column = 0; column < color.cols; ++column, pixel += 3) {
       int greatest = 0;
       for (int channel = 0; channel < 3; ++channel) {
         const std::uint8_t* at = pixel + channel;
         const int difference = at[step] + at[2 * step] - at[-step] - at[-2 * step];
         if (std::abs(difference) > std::abs(greatest)) greatest = difference;
       }
-      out[column] = static_cast<std::int16_t>(greatest / 2);
+      out[column] = static_cast<std::int16_t>(greatest / kLeastSide);
     }
   }
   return result;
 }
 
-/// Keeps what is at least `contrast` and no less than its neighbours across the edge; where the wall is not seen, there
-/// is no edge.
-cv::Mat thinned(const cv::Mat& differences, const RectifiedWall& wall, bool across, int contrast) {
+bool isGreatest(const std::int16_t* at, std::ptrdiff_t step, int side) {
+  const int size = std::abs(*at);
+  for (int i = 1; i <= side; ++i) {
+    if (size < std::abs(at[-i * step]) || size <= std::abs(at[i * step])) return false;
+  }
+  return true;
+}
+
+bool isVisible(Seen seen) {
+  return seen == Seen::kWall || seen == Seen::kColor;
+}
+
+/// Keeps what is at least `contrast` and greatest across the edge. Where the wall is not seen, there is no edge.
+cv::Mat thinnedAcross(const cv::Mat& differences, const RectifiedWall& wall, const std::vector<int>& sides,
+                      int contrast) {
   cv::Mat result(differences.size(), CV_16S, cv::Scalar(0));
-  const auto pitch = static_cast<std::ptrdiff_t>(differences.step1());
-  const std::ptrdiff_t step = across ? 1 : pitch;
-  for (int row = kSide; row < differences.rows - kSide; ++row) {
+  for (int row = 0; row < differences.rows; ++row) {
     const auto* in = differences.ptr<std::int16_t>(row);
     auto* out = result.ptr<std::int16_t>(row);
-    for (int column = kSide; column < differences.cols - kSide; ++column) {
-      const std::int16_t* at = in + column;
-      const int size = std::abs(*at);
-      if (size < contrast) continue;
-      if (size < std::abs(at[-step]) || size < std::abs(at[-2 * step])) continue;
-      if (size <= std::abs(at[step]) || size <= std::abs(at[2 * step])) continue;
-      const Seen seen = wall.seen(column, row);
-      if (seen != Seen::kWall && seen != Seen::kColor) continue;
-      out[column] = *at;
+    for (int column = kLeastSide; column < differences.cols - kLeastSide; ++column) {
+      if (std::abs(in[column]) < contrast || !isVisible(wall.seen(column, row))) continue;
+      if (isGreatest(in + column, 1, sides[static_cast<std::size_t>(column)])) out[column] = in[column];
+    }
+  }
+  return result;
+}
+
+/// Adds edges that the camera's motion has blurred: those that are much stronger when looked at from afar.
+void addSoftEdges(cv::Mat& edges, const cv::Mat& sharp, const RectifiedWall& wall, const std::vector<int>& sides,
+                  int contrast) {
+  constexpr int kWider = 3;
+  std::vector<int> wide = sides;
+  for (std::size_t i = 0; i < wide.size(); ++i) {
+    const auto room = static_cast<int>(std::min(i, wide.size() - 1 - i));
+    wide[i] = std::min({kWider * sides[i], kMostSide, room});
+  }
+  const cv::Mat soft = differencesAcross(wall.color(), wide);
+  const cv::Mat thin = thinnedAcross(soft, wall, wide, 2 * contrast);
+  for (int row = 0; row < edges.rows; ++row) {
+    auto* edge = edges.ptr<std::int16_t>(row);
+    const auto* candidate = thin.ptr<std::int16_t>(row);
+    const auto* near = sharp.ptr<std::int16_t>(row);
+    for (int column = 0; column < edges.cols; ++column) {
+      if (std::abs(candidate[column]) > 2 * std::abs(near[column])) edge[column] = candidate[column];
+    }
+  }
+}
+
+cv::Mat thinnedDown(const cv::Mat& differences, const RectifiedWall& wall, int contrast) {
+  cv::Mat result(differences.size(), CV_8U, cv::Scalar(0));
+  const auto step = static_cast<std::ptrdiff_t>(differences.step1());
+  for (int row = kLeastSide; row < differences.rows - kLeastSide; ++row) {
+    const auto* in = differences.ptr<std::int16_t>(row);
+    auto* out = result.ptr<std::uint8_t>(row);
+    for (int column = 0; column < differences.cols; ++column) {
+      if (std::abs(in[column]) < contrast || !isVisible(wall.seen(column, row))) continue;
+      if (isGreatest(in + column, step, kLeastSide)) out[column] = 255;
     }
   }
   return result;
@@ -118,9 +195,9 @@ struct Run {
 };
 
 /// Links the edge pixels of each row to runs that end just above.
-std::vector<Run> linkRuns(const cv::Mat& upright) {
+std::vector<Run> linkRuns(const cv::Mat& upright, const std::vector<int>& sides) {
   constexpr int kGap = 6;           // rows without an edge that a run bridges
-  constexpr double kAside = 1.6;    // columns from one pixel to the next
+  constexpr double kAside = 0.8;    // of an edge's blur, from one pixel to the next
   constexpr int kLeastPixels = 12;  // 18 cm
   std::vector<Run> open;            // by column, nearly
   std::vector<Run> done;
@@ -136,9 +213,9 @@ std::vector<Run> linkRuns(const cv::Mat& upright) {
       if (edge[column] == 0) continue;
       const bool brightens = edge[column] > 0;
       Run* best = nullptr;
-      double nearest = kAside;
-      for (auto run = std::ranges::lower_bound(open, column - 3.0 * kAside, {}, &Run::column);
-           run != open.end() && run->column < column + 3.0 * kAside; ++run) {
+      double nearest = kAside * sides[static_cast<std::size_t>(column)];
+      for (auto run = std::ranges::lower_bound(open, column - kMostSide, {}, &Run::column);
+           run != open.end() && run->column < column + kMostSide; ++run) {
         const double aside = std::abs(run->column - column);
         if (aside >= nearest || run->last == row || run->brightens != brightens) continue;
         nearest = aside;
@@ -159,8 +236,8 @@ bool leansLess(const Run& run, double tolerance) {
 }
 
 /// Whether two runs are pieces of one line: a handle, a change of the wall's colour or a sign interrupts it.
-bool continues(const Run& a, const Run& b, double tolerance) {
-  constexpr double kOff = 1.8;  // columns
+bool continues(const Run& a, const Run& b, int blur, double tolerance) {
+  const double most = 0.9 * blur;  // columns
   const UprightLine above = a.line();
   const UprightLine below = b.line();
   const bool overlap = std::min(a.last, b.last) - std::max(a.top, b.top) > 4;
@@ -171,20 +248,21 @@ bool continues(const Run& a, const Run& b, double tolerance) {
   const auto off = [&](const UprightLine& line) {
     return std::abs(line.slope - slope) * 0.5 * (line.bottom - line.top);
   };
-  return rows > 0.0 && off(above) < kOff && off(below) < kOff;
+  return rows > 0.0 && off(above) < most && off(below) < most;
 }
 
 }  // namespace
 
-WallEdges::WallEdges(const RectifiedWall& wall, double contrast) {
+WallEdges::WallEdges(const RectifiedWall& wall, double contrast) : sides_(sidesOf(wall)) {
   const int least = std::max(1, static_cast<int>(contrast));
-  upright_ = thinned(differences(wall.color(), true), wall, true, least);
-  const cv::Mat level = thinned(differences(wall.color(), false), wall, false, least);
-  cv::Mat isEdge = (upright_ != 0) | (level != 0);
+  const cv::Mat sharp = differencesAcross(wall.color(), sides_);
+  upright_ = thinnedAcross(sharp, wall, sides_, least);
+  addSoftEdges(upright_, sharp, wall, sides_, least);
+  const cv::Mat level = thinnedDown(differencesDown(wall.color()), wall, least);
+  const cv::Mat isEdge = (upright_ != 0) | level;
   cv::integral(isEdge / 255, edgeCount_, CV_32S);
-  const cv::Mat isLevel = level != 0;
   cv::Mat thick;
-  cv::dilate(isLevel, thick, cv::getStructuringElement(cv::MORPH_RECT, {1, 3}));
+  cv::dilate(level, thick, cv::getStructuringElement(cv::MORPH_RECT, {1, 3}));
   levelCount_ = cv::Mat(thick.rows, thick.cols + 1, CV_32S);
   for (int row = 0; row < thick.rows; ++row) {
     const auto* in = thick.ptr<std::uint8_t>(row);
@@ -195,9 +273,8 @@ WallEdges::WallEdges(const RectifiedWall& wall, double contrast) {
 }
 
 std::vector<UprightLine> WallEdges::uprightLines(double tolerance) const {
-  constexpr double kNear = 6.0;  // columns
   constexpr int kLeastPixels = 24;
-  std::vector<Run> runs = linkRuns(upright_);
+  std::vector<Run> runs = linkRuns(upright_, sides_);
   std::erase_if(runs, [&](const Run& run) { return !leansLess(run, tolerance); });
   // The longest first, so that they gather what continues them.
   std::ranges::stable_sort(runs, std::greater{}, &Run::pixels);
@@ -205,7 +282,8 @@ std::vector<UprightLine> WallEdges::uprightLines(double tolerance) const {
   for (const Run& run : runs) {
     const double column = run.columns / run.pixels;
     const auto line = std::ranges::find_if(lines, [&](const Run& known) {
-      return std::abs(known.columns / known.pixels - column) < kNear && continues(known, run, tolerance);
+      const int blur = blurAt(static_cast<int>(column));
+      return std::abs(known.columns / known.pixels - column) < 3.0 * blur && continues(known, run, blur, tolerance);
     });
     if (line == lines.end()) {
       lines.push_back(run);
@@ -248,7 +326,8 @@ double WallEdges::support(const UprightLine& line, int top, int bottom) const {
   for (int row = top; row < bottom; ++row) {
     const auto middle = static_cast<int>(std::lround(line.columnAt(row)));
     bool hit = false;
-    for (int column = std::max(0, middle - 1); column <= std::min(upright_.cols - 1, middle + 1); ++column) {
+    const int reach = blurAt(std::clamp(middle, 0, upright_.cols - 1)) / 2;
+    for (int column = std::max(0, middle - reach); column <= std::min(upright_.cols - 1, middle + reach); ++column) {
       hit = hit || isUpright(column, row);
     }
     hits += hit ? 1 : 0;

@@ -39,13 +39,16 @@ class WallEdges {
   double density(int first, int last, int top, int bottom) const;
   /// Share of the rows [top, bottom) in which `line`'s way has an upright edge.
   double support(const UprightLine& line, int top, int bottom) const;
+  /// How far edges of a column are blurred, pixels.
+  int blurAt(int column) const { return sides_[static_cast<std::size_t>(column)]; }
 
  private:
   bool isUpright(int column, int row) const { return upright_.at<std::int16_t>(row, column) != 0; }
 
-  cv::Mat upright_;     ///< CV_16S: signed difference where there is an upright edge, else 0
-  cv::Mat levelCount_;  ///< CV_32S: level edges (thickened by a row) left of a column in its row
-  cv::Mat edgeCount_;   ///< CV_32S: integral image of edge pixels
+  std::vector<int> sides_;  ///< per column, how wide edges are there, pixels
+  cv::Mat upright_;         ///< CV_16S: signed difference where there is an upright edge, else 0
+  cv::Mat levelCount_;      ///< CV_32S: level edges (thickened by a row) left of a column in its row
+  cv::Mat edgeCount_;       ///< CV_32S: integral image of edge pixels
 };
 
 }  // namespace prodomos::perception

@@ -9,12 +9,15 @@
 
 namespace prodomos::perception {
 
-/// Log-odds that there is a closed door, as the cues tell.
+/// Log-odds that there is a closed door, as the cues tell: logistic regression over simulated buildings
+/// (docs/doors.md).
 double evidenceOf(const DoorCandidate& candidate);
+
+/// How well its lines are the leaf's own edges, against other lines beside them: of two for the same door the one with
+/// more is the better.
+double fitOf(const DoorCandidate& candidate);
 
 /// The cue that speaks most against it, in a word: "skirting", "no top".
 std::string_view weakestPoint(const DoorCandidate& candidate);
-
-std::string_view nameOf(Cue cue);
 
 }  // namespace prodomos::perception

@@ -23,16 +23,18 @@ constexpr double kDeepestLeaf = 0.35;
 constexpr double kSteepestLook = 78.0 * std::numbers::pi / 180.0;
 
 Wall wallOf(const RgbdView& view, const Surfaces& surfaces, const PlanarPatch& patch) {
-  Vector3d away = -patch.plane_in_submap.normal;
-  away.z() = 0.0;
-  away.normalize();
+  // The plane as measured: made upright, it would be wrong by what gravity is known to, and oblique lines would lean.
+  const Vector3d away = -patch.plane_in_submap.normal;
+  const Vector3d along = away.cross(Vector3d::UnitZ()).normalized();
   const Vector3d camera = view.T_submap_camera.translation();
   Wall wall;
   wall.distance = away.dot(patch.centroid_in_submap - camera);
-  wall.cameraHeight = camera.z() - surfaces.floor_z;
-  wall.T_submap_wall.linear() << away.cross(Vector3d::UnitZ()), away, Vector3d::UnitZ();
+  wall.T_submap_wall.linear() << along, away, along.cross(away);
+  // Down the plane from the camera's foot of the perpendicular to the floor.
+  const Vector3d up = along.cross(away);
   wall.T_submap_wall.translation() = camera + wall.distance * away;
-  wall.T_submap_wall.translation().z() = surfaces.floor_z;
+  wall.cameraHeight = (wall.T_submap_wall.translation().z() - surfaces.floor_z) / up.z();
+  wall.T_submap_wall.translation() -= wall.cameraHeight * up;
   return wall;
 }
 
@@ -84,8 +86,10 @@ std::vector<Wall> findWalls(const RgbdView& view, const Surfaces& surfaces) {
 }
 
 RectifiedWall::RectifiedWall(const RgbdView& view, const Surfaces& surfaces, const Wall& wall, double reach)
-    : wall_(wall), T_camera_wall_(view.T_submap_camera.inverse() * wall.T_submap_wall) {
-  chooseSpan(view, surfaces, reach);
+    : wall_(wall),
+      T_camera_wall_(view.T_submap_camera.inverse() * wall.T_submap_wall),
+      focalLength_(surfaces.depth.camera().focalLength()) {
+  chooseSpan(surfaces, reach);
   if (!(wall_.most_x - wall_.least_x > 0.3)) return;
   least_x_ = wall_.least_x;
   const int columns = kBlock * static_cast<int>(std::ceil((wall_.most_x - wall_.least_x) / (kPixel * kBlock)));
@@ -125,7 +129,7 @@ RectifiedWall::RectifiedWall(const RgbdView& view, const Surfaces& surfaces, con
 
 /// From the end of what was seen of the wall some way on: a jamb at its end must be in the picture, and where depth
 /// ends for range alone, the wall goes on.
-void RectifiedWall::chooseSpan(const RgbdView& view, const Surfaces& surfaces, double reach) {
+void RectifiedWall::chooseSpan(const Surfaces& surfaces, double reach) {
   constexpr double kBeyondEnd = 0.3;     // metres
   constexpr double kDepthReaches = 3.5;  // metres
   const sensors::Camera& camera = surfaces.depth.camera();
@@ -155,7 +159,6 @@ void RectifiedWall::chooseSpan(const RgbdView& view, const Surfaces& surfaces, d
   }
   wall_.least_x = begin;
   wall_.most_x = end;
-  (void)view;
 }
 
 void RectifiedWall::lookUpDepth(const RgbdView& view, const Surfaces& surfaces) {
@@ -184,6 +187,10 @@ double RectifiedWall::rangeAt(double x) const {
 
 double RectifiedWall::obliquenessAt(double x) const {
   return std::atan2(std::abs(x), wall_.distance);
+}
+
+double RectifiedWall::footprintAt(double x) const {
+  return rangeAt(x) / (focalLength_ * std::cos(obliquenessAt(x)));
 }
 
 }  // namespace prodomos::perception

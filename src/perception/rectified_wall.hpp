@@ -69,13 +69,16 @@ class RectifiedWall {
   /// How far the wall's point is from the camera, and the angle at which it is seen, from the normal.
   double rangeAt(double x) const;
   double obliquenessAt(double x) const;
+  /// Metres along the wall that a pixel of the camera's image covers there.
+  double footprintAt(double x) const;
 
  private:
-  void chooseSpan(const RgbdView& view, const Surfaces& surfaces, double reach);
+  void chooseSpan(const Surfaces& surfaces, double reach);
   void lookUpDepth(const RgbdView& view, const Surfaces& surfaces);
 
   Wall wall_;
   geometry::Pose3 T_camera_wall_ = geometry::Pose3::Identity();
+  double focalLength_ = 1.0;
   double least_x_ = 0.0;
   cv::Mat color_;
   cv::Mat seen_;

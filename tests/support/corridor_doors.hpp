@@ -150,4 +150,22 @@ inline QuadOverlap overlapOf(const Quad& a, const Quad& b) {
   return overlap;
 }
 
+/// The marked door that a sighting shows; "" where it touches one, or one that was marked some frames off; none: there
+/// is no door.
+inline std::optional<std::string> nameOf(const perception::DoorSighting& sighting, const perception::RgbdView& view,
+                                         int frame, const std::vector<MarkedDoor>& doors) {
+  constexpr int kNear = 12;  // frames
+  const auto quad = quadOf(sighting, view);
+  if (!quad) return std::nullopt;
+  bool touches = false;
+  for (const auto& door : doors) {
+    const bool isNear = frame >= door.marks.begin()->first - kNear && frame <= door.marks.rbegin()->first + kNear;
+    if (!door.isSeen(frame) && !isNear) continue;
+    const QuadOverlap overlap = overlapOf(*quad, door.at(frame));
+    if (overlap.iou() > 0.5) return door.id;
+    touches = touches || overlap.ofSmaller() > 0.5;
+  }
+  return touches ? std::optional<std::string>("") : std::nullopt;
+}
+
 }  // namespace prodomos::test
