@@ -17,6 +17,7 @@ constexpr std::size_t kLeastSteps = 3;
 constexpr std::size_t kLeastCells = 10;  // of a step
 constexpr double kLeastWidth = 0.35;     // metres of a step that must be seen
 constexpr double kProfile = 0.02;        // metres off the profile, but for depth noise
+constexpr double kEdge = 0.02;           // metres: cells so near an edge show both sides of it
 constexpr double kInFront = 0.35;        // metres; what hides a step stands that much nearer
 constexpr double kBin = 0.05;            // metres: a column across
 constexpr int kBins = 60;                // columns to either side
@@ -175,7 +176,8 @@ ProfileCheck::Count ProfileCheck::tread(int step, double y, double tolerance) co
 bool ProfileCheck::isBehind(int step, const Eigen::Vector3d& spot) const {
   const Eigen::Vector3d eye = T_flight_camera_.translation();
   const double share = (lattice_.riserAt(step) - spot.x()) / (eye.x() - spot.x());  // of the way to the eye
-  return share > 0.0 && share < 1.0 && spot.z() + share * (eye.z() - spot.z()) < lattice_.treadAt(step);
+  return share > 0.0 && share < 1.0 &&
+         spot.z() + share * (eye.z() - spot.z()) < lattice_.treadAt(step) + kProfile + kEdge;
 }
 
 ProfileCheck::Count ProfileCheck::at(const Eigen::Vector3d& spot, const Eigen::Vector3d& normal,
@@ -186,7 +188,7 @@ ProfileCheck::Count ProfileCheck::at(const Eigen::Vector3d& spot, const Eigen::V
   const auto depth = static_cast<double>(cell->depth);
   if (depth < expected.z() - kInFront) return {};
   const double off = normal.dot(T_flight_camera_ * pointOf(*cell) - spot);
-  return std::abs(off) < kProfile + tolerance + sensors::depthSigma(depth) ? Count{1, 0} : Count{0, 1};
+  return std::abs(off) < kProfile + tolerance + 1.5 * sensors::depthSigma(depth) ? Count{1, 0} : Count{0, 1};
 }
 
 std::optional<double> ProfileCheck::depthBehind(const Eigen::Vector3d& point_in_flight) const {
