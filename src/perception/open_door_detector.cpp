@@ -38,7 +38,8 @@ struct Opening {
   double left = 0.0;  // metres along the wall
   double right = 0.0;
   std::optional<double> lintel;
-  double behind = 0.0;  // share of what is seen through it that lies in another room
+  bool showsTop = false;  // there would be a lintel in the image
+  double behind = 0.0;    // share of what is seen through it that lies in another room
   std::optional<Leaf> leftLeaf;
   std::optional<Leaf> rightLeaf;
 
@@ -54,6 +55,7 @@ Opening lookAt(const WallProfile& profile, const Gap& gap, const RgbdView& view,
   opening.left = profile.xOf(gap.left) - 0.5 * WallProfile::kStep;
   opening.right = profile.xOf(gap.right) + 0.5 * WallProfile::kStep;
   opening.lintel = profile.lintel(gap);
+  opening.showsTop = profile.showsTop(gap);
   opening.behind = profile.shareBehind(gap, config.leastDepth);
   const double middle = 0.5 * (opening.left + opening.right);
   const auto spots = open_doors::spotsNear(view, surfaces, profile.wall(), middle, opening.width() + 0.5);
@@ -72,8 +74,9 @@ std::optional<double> evidenceOf(const Opening& opening, const OpenDoorDetectorC
     return 0.5 + 2.0 * (covered - 0.65) + (opening.lintel ? 1.0 : 0.0);
   }
   if (opening.behind < kLeastBehind) return std::nullopt;
-  if (!opening.lintel && opening.width() > config.mostPlain) return std::nullopt;
-  return opening.lintel ? 1.5 : 0.3;
+  if (opening.lintel) return 1.5;
+  if (opening.showsTop || opening.width() > config.mostPlain) return std::nullopt;
+  return 0.3;
 }
 
 /// A door or doorway in a wall's frame.
@@ -104,7 +107,7 @@ Told toldBy(const SwungLeaf& leaf) {
   const double end = leaf.hinge.x + leaf.hinge.closing * leaf.hinge.leafWidth;
   Told told{std::min(leaf.hinge.x, end), std::max(leaf.hinge.x, end), leaf.top, leaf.angle};
   told.hingeSide = leaf.hinge.closing > 0.0 ? map::HingeSide::kLeft : map::HingeSide::kRight;
-  told.evidence = leaf.sideIsSeen ? 1.5 : 0.5;
+  told.evidence = 1.5;
   told.sigma = kSigma;
   return told;
 }

@@ -30,6 +30,7 @@ constexpr double kSigmas = 2.0;
 /// In the plane: along the closed leaf from its axis, and behind the wall's plane.
 struct Flat {
   Eigen::Vector2d point;
+  Eigen::Vector2d normal;
   double z = 0.0;
   double sigma = 0.0;
 };
@@ -122,14 +123,22 @@ std::optional<Leaf> verified(const Flats& flats, const Line& line, double width)
   constexpr double kMostBeyond = 0.35;
   constexpr double kMostAbove = 0.3;
   constexpr double kOffAxis = 0.12;
+  constexpr double kMostTurned = 0.5;   // sine between surface and leaf
+  constexpr double kLeastFacing = 0.6;  // people are not flat
   if (std::abs(line.angle) < kLeastAngle || std::abs(line.angle) > kMostAngle) return std::nullopt;
   if (std::abs(line.origin.x()) > kOffAxis) return std::nullopt;
   Coverage along;
   Coverage upwards;
   Coverage above;
+  int hasNormal = 0;
+  int faces = 0;
   for (const auto& flat : flats) {
     if (!line.holds(flat)) continue;
     const double length = line.length(flat);
+    if (length > kNearAxis && length < width) {
+      hasNormal += flat.normal.isZero() ? 0 : 1;
+      faces += std::abs(flat.normal.dot(line.along())) < kMostTurned && !flat.normal.isZero() ? 1 : 0;
+    }
     if (flat.z < kLeafTop) along.add(length);
     if (length < kNearAxis || length > width) continue;
     upwards.add(flat.z);
@@ -141,6 +150,7 @@ std::optional<Leaf> verified(const Flats& flats, const Line& line, double width)
     lowest = std::min(lowest, flat.z);
     highest = std::max(highest, std::min(flat.z, kLeafTop));
   }
+  if (faces < kLeastFacing * hasNormal) return std::nullopt;
   const double covered = along.share(kNearAxis, width - 0.05);
   const double upright = upwards.share(lowest + kBin, highest - kBin);
   if (covered < kLeastCovered || upright < kLeastCovered) return std::nullopt;
@@ -161,7 +171,8 @@ std::vector<Spot> spotsNear(const RgbdView& view, const Surfaces& surfaces, cons
       const Eigen::Vector3d point = T_wall_camera * pointOf(cell);
       if (point.z() < kLowest || point.z() > kHighest) continue;
       if ((point.head<2>() - Eigen::Vector2d(x, 0.0)).squaredNorm() > radius * radius) continue;
-      spots.push_back({point, sensors::depthSigma(static_cast<double>(cell.depth))});
+      spots.push_back(
+          {point, T_wall_camera.linear() * normalOf(cell), sensors::depthSigma(static_cast<double>(cell.depth))});
     }
   }
   return spots;
@@ -173,7 +184,8 @@ std::optional<Leaf> findLeaf(const std::vector<Spot>& spots, const Hinge& hinge)
   for (const auto& spot : spots) {
     const Eigen::Vector2d point(hinge.closing * (spot.point_in_wall.x() - hinge.x), spot.point_in_wall.y());
     if (point.x() < -0.6 * hinge.leafWidth) continue;
-    flats.push_back({point, spot.point_in_wall.z(), spot.sigma});
+    const Eigen::Vector2d normal(hinge.closing * spot.normal_in_wall.x(), spot.normal_in_wall.y());
+    flats.push_back({point, normal, spot.point_in_wall.z(), spot.sigma});
   }
   Line line;
   double most = 0.0;

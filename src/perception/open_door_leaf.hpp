@@ -25,10 +25,11 @@ struct Leaf {
   double covered = 0.0;  ///< of its width and height what is seen, 0 … 1
 };
 
-/// A spot of a surface in the wall's frame, and how far its depth may be off, metres.
+/// A spot of a surface in the wall's frame.
 struct Spot {
   Eigen::Vector3d point_in_wall;
-  double sigma = 0.0;
+  Eigen::Vector3d normal_in_wall;  ///< zero: not known
+  double sigma = 0.0;              ///< of its depth, metres
 };
 
 /// Spots within `radius` metres of a point of the wall, at the heights of doors and somewhat above.

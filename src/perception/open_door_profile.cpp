@@ -17,7 +17,7 @@ constexpr double kHighest = 1.9;
 constexpr double kSpacing = 0.1;
 constexpr double kSill = 0.75;
 
-constexpr double kHighestLintel = 2.6;
+constexpr double kHighestLintel = 2.5;
 constexpr double kRoughness = 0.04;  // metres that a wall, its frames and skirting deviate from its plane
 constexpr double kSigmas = 2.5;
 constexpr double kReach = 4.5;  // metres along the floor to which depth tells wall from opening

@@ -18,7 +18,6 @@ constexpr double kOffWall = 0.25;    // metres between a leaf's edge and the wal
 constexpr double kStandsOut = 0.12;  // metres, at least
 constexpr double kLeastAngle = 8.0 * std::numbers::pi / 180.0;
 constexpr double kMostAngle = 100.0 * std::numbers::pi / 180.0;
-constexpr double kClearAngle = 75.0 * std::numbers::pi / 180.0;  // nobody opens a door by its supplement
 
 /// Metres behind a leaf's plane that is not the leaf any more: where it is ajar, the wall is not far.
 constexpr double kFar = 0.1;
@@ -118,10 +117,10 @@ std::optional<SwungLeaf> findSwungLeaf(const WallProfile& wall, const WallProfil
   };
   constexpr int kClearly = 3;  // strips
   const int more = speaksFor(1.0) - speaksFor(-1.0);
-  swung.sideIsSeen = std::abs(more) >= kClearly;
-  swung.hinge.closing = swung.sideIsSeen ? (more > 0 ? 1.0 : -1.0) : (along.x() > 0.0 ? 1.0 : -1.0);
+  if (std::abs(more) < kClearly) return std::nullopt;
+  swung.hinge.closing = more > 0 ? 1.0 : -1.0;
   swung.angle = std::acos(std::clamp(swung.hinge.closing * along.x(), -1.0, 1.0));
-  if (swung.angle < kLeastAngle || swung.angle > (swung.sideIsSeen ? kMostAngle : kClearAngle)) return std::nullopt;
+  if (swung.angle < kLeastAngle || swung.angle > kMostAngle) return std::nullopt;
   return swung;
 }
 

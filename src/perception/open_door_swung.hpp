@@ -11,10 +11,9 @@ namespace prodomos::perception::open_doors {
 
 /// A leaf that stands out from a wall towards the observer, seen by itself: what it opens may be hidden.
 struct SwungLeaf {
-  Hinge hinge;              ///< in the wall's frame
-  double angle = 0.0;       ///< radians from closed
-  double top = 0.0;         ///< metres above the floor
-  bool sideIsSeen = false;  ///< the wall tells on which side of the hinge the opening is
+  Hinge hinge;         ///< in the wall's frame
+  double angle = 0.0;  ///< radians from closed
+  double top = 0.0;    ///< metres above the floor
 };
 
 /// `leaf`: the profile of the patch that may be one. None where it does not end as leaves do, or does not meet the
