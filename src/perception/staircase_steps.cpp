@@ -3,6 +3,7 @@
 #include "perception/staircase_steps.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
@@ -90,13 +91,20 @@ ProfileCheck::Count countOf(const ProfileCheck& check, int step, const Across& a
   });
 }
 
-/// The widest row of columns in which the steps from `lowest` to `highest` are there rather than anything else.
-Across widestRow(const ProfileCheck& check, int lowest, int highest) {
+/// The widest row of columns that cells lie in and in which the steps from `lowest` to `highest` are there rather than
+/// anything else.
+Across widestRow(const std::vector<PlacedCell>& cells, const ProfileCheck& check, int lowest, int highest) {
   constexpr int kNever = -10 * kBins;
+  std::array<bool, 2 * kBins> hasCells{};
+  for (const PlacedCell& c : cells) {
+    const double column = std::floor(c.point.y() / kBin) + kBins;
+    if (column >= 0.0 && column < 2.0 * kBins) hasCells[static_cast<std::size_t>(column)] = true;
+  }
   Across best;
   int first = 0;
   int last = kNever;
   for (int bin = -kBins; bin < kBins; ++bin) {
+    if (!hasCells[static_cast<std::size_t>(bin + kBins)]) continue;
     ProfileCheck::Count count;
     for (int step = lowest; step <= highest; ++step) {
       count += countOf(check, step, {bin * kBin, (bin + 1) * kBin});
@@ -187,8 +195,11 @@ ProfileCheck::Count ProfileCheck::at(const Eigen::Vector3d& spot, const Eigen::V
   if (cell == nullptr) return {};
   const auto depth = static_cast<double>(cell->depth);
   if (depth < expected.z() - kInFront) return {};
-  const double off = normal.dot(T_flight_camera_ * pointOf(*cell) - spot);
-  return std::abs(off) < kProfile + tolerance + 1.5 * sensors::depthSigma(depth) ? Count{1, 0} : Count{0, 1};
+  const double sigma = sensors::depthSigma(depth);
+  const Eigen::Vector3d off = T_flight_camera_ * pointOf(*cell) - spot;
+  const bool isThere = std::abs(normal.dot(off)) < kProfile + tolerance + 1.5 * sigma &&
+                       std::abs(off.x()) < 0.5 * lattice_.depth + 1.5 * sigma;
+  return isThere ? Count{1, 0} : Count{0, 1};
 }
 
 std::optional<double> ProfileCheck::depthBehind(const Eigen::Vector3d& point_in_flight) const {
@@ -203,7 +214,7 @@ std::optional<FlightSteps> findSteps(std::span<const StairCell> cells, const Ste
   std::vector<PlacedCell> onSteps = placed(cells, lattice, T_submap_flight);
   std::vector<SeenStep> steps = longestRun(stepsOf(onSteps), check, {});
   if (steps.size() < kLeastSteps) return std::nullopt;
-  const Across across = widestRow(check, steps.front().index, steps.back().index);
+  const Across across = widestRow(onSteps, check, steps.front().index, steps.back().index);
   std::erase_if(onSteps, [&](const PlacedCell& c) { return c.point.y() < across.least || c.point.y() > across.most; });
   steps = stepsOf(onSteps);
   std::erase_if(steps, [&](const SeenStep& step) {

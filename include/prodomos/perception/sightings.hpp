@@ -40,8 +40,9 @@ struct Step {
   double width = 0.0;  ///< across, metres
 };
 
-/// A flight as one reading shows it (002 §II-C). Axes as map::Staircase's entity: x uphill, level; the origin is the
-/// front edge of the lowest step's middle that was seen, on the lower floor.
+/// A flight as one reading shows it (002 §II-C). Axes as map::Staircase's entity: x uphill, level. The origin is the
+/// middle of the foot: where the steps, continued downwards, stand on the robot's floor, should they do so at a riser;
+/// else the lower edge of the lowest riser that was seen.
 struct StaircaseSighting {
   base::Time time{};
   geometry::Pose3 T_submap_stairs = geometry::Pose3::Identity();
