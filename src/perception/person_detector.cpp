@@ -115,12 +115,15 @@ class PersonDetector::Implementation {
 
   const PeopleConfig& config() const { return config_; }
 
-  std::vector<PicturedPerson> find(const cv::Mat& picture) {
+  std::vector<PicturedPerson> find(const UprightView& view) {
+    const cv::Mat& picture = view.picture();
     std::vector<PicturedPerson> people;
     if (!boxes_ || picture.empty()) return people;
     for (const auto& box : united(boxes_->byBody(picture), boxes_->byClass(picture))) {
       if (box.score < kDoubtful * config_.leastScore) continue;
-      people.push_back({.box = box, .joints = joints_->find(picture, box.box)});
+      // Without depth nobody is located anyway.
+      const auto whole = wholeBodyBox(view, box);
+      if (whole) people.push_back({.box = box, .joints = joints_->find(picture, *whole)});
     }
     return people;
   }
@@ -140,7 +143,7 @@ PersonDetector& PersonDetector::operator=(PersonDetector&&) noexcept = default;
 std::vector<PersonSighting> PersonDetector::find(const RgbdView& view, DebugImages* debug) {
   const auto upright = UprightView::of(view);
   if (!upright) return {};
-  return located(view, *upright, implementation_->find(upright->picture()), debug);
+  return located(view, *upright, implementation_->find(*upright), debug);
 }
 
 std::vector<PersonSighting> PersonDetector::find(const RgbdView& view, const sensors::KeyPoints& keyPoints,

@@ -24,6 +24,7 @@ constexpr std::size_t kLeftHip = 11;
 
 constexpr double kLeastHeight = 0.9;  ///< metres, of who may sit
 constexpr double kMostHeight = 2.3;
+constexpr double kUsualHeight = 1.75;
 constexpr double kReach = 0.45;     ///< metres from the torso, of arms and legs
 constexpr double kTorsoTop = 0.30;  ///< metres below the top of the head
 constexpr double kTorsoEnd = 0.80;
@@ -145,13 +146,18 @@ std::optional<Body> bodyOf(const UprightView& view, const PicturedPerson& person
   return body;
 }
 
+/// Metres across the view, of all but a little at both sides.
+double widthOf(const Body& body) {
+  std::vector<double> across;
+  for (const Sample& sample : body.torso) across.push_back(body.left.dot(sample.point_in_submap.head<2>()));
+  return quantile(across, 0.95) - quantile(across, 0.05);
+}
+
 /// A human's size: a head at a human's height, as wide as humans are.
 bool isOfHumanSize(const Body& body, double floor_z) {
   const double height = body.top_z - floor_z;
   if (height > kMostHeight || height < (body.topIsSeen ? kLeastHeight : 0.4)) return false;
-  std::vector<double> across;
-  for (const Sample& sample : body.torso) across.push_back(body.left.dot(sample.point_in_submap.head<2>()));
-  const double width = quantile(across, 0.95) - quantile(across, 0.05);
+  const double width = widthOf(body);
   return width > 0.12 && width < 1.0;
 }
 
@@ -279,6 +285,10 @@ std::optional<Facing> facingOf(const UprightView& view, const Body& body, const 
   Facing facing;
   facing.across = std::abs(shoulders->left) / kShoulders;
   if (hips) facing.across = std::max(facing.across, std::abs(hips->left) / kHips);
+  // The network may see the shoulders of a back too close to each other; a torso seen from the side is narrow.
+  constexpr double kNarrow = 0.24;
+  constexpr double kWide = 0.40;
+  facing.across = std::max(facing.across, (widthOf(body) - kNarrow) / (kWide - kNarrow));
   facing.across = std::min(facing.across, 1.0);
   // Who faces the camera has the left shoulder at its right.
   const double away = shoulders->away.value_or(0.0) * (shoulders->left > 0.0 ? -1.0 : 1.0);
@@ -329,6 +339,17 @@ Appearance appearanceOf(const UprightView& view, const Body& body) {
 }
 
 }  // namespace
+
+std::optional<cv::Rect2d> wholeBodyBox(const UprightView& view, const PersonBox& box) {
+  const auto depth = torsoDepth(view, {.box = box});
+  if (!depth) return std::nullopt;
+  const cv::Point2d middle = (box.box.tl() + box.box.br()) / 2.0;
+  constexpr double kStep = 10.0;  // pixels
+  const double metres =
+      (view.pointAt(middle + cv::Point2d(0.0, kStep), *depth) - view.pointAt(middle, *depth)).norm() / kStep;
+  const double height = std::max(box.box.height, kUsualHeight / metres);
+  return cv::Rect2d(box.box.tl(), cv::Size2d(box.box.width, height));
+}
 
 std::optional<PersonSighting> locate(const UprightView& view, const PicturedPerson& person, double floor_z) {
   const auto body = bodyOf(view, person, floor_z);
