@@ -33,10 +33,13 @@ double toleranceAt(double depth) {
   return kRoughness + kSigmas * sensors::depthSigma(depth);
 }
 
-/// Least cosine between a cell's normal and its plane's: a normal is as good as the depths across its window are.
+/// Least cosine between a cell's normal and its plane's: a normal is as good as the depths across its window are. That
+/// of 0.3 + 2 atan(noise over window), at most 1.2 radians.
 double leastCosineAt(double depth, double focalLength) {
   const double window = 4.0 * sensors::DepthGrid::kBlock * depth / focalLength;
-  return std::cos(std::min(0.3 + 2.0 * std::atan(sensors::depthSigma(depth) / window), 1.2));
+  const double t = sensors::depthSigma(depth) / window;
+  const double cosine = (0.955336 * (1.0 - t * t) - 0.295520 * 2.0 * t) / (1.0 + t * t);
+  return std::max(cosine, 0.362358);
 }
 
 bool hasNormal(const Cell& cell) {
@@ -208,9 +211,11 @@ class PatchMaker {
     tolerance_.resize(count);
     leastCosine_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
+      if (!(cell(i).depth > 0.0F)) continue;
+      free_.push_back(static_cast<std::uint32_t>(i));
       const auto depth = static_cast<double>(cell(i).depth);
       tolerance_[i] = static_cast<float>(toleranceAt(depth));
-      leastCosine_[i] = static_cast<float>(leastCosineAt(std::max(depth, 0.1), grid.camera().focalLength()));
+      leastCosine_[i] = static_cast<float>(leastCosineAt(depth, grid.camera().focalLength()));
     }
   }
 
@@ -218,10 +223,10 @@ class PatchMaker {
   void addPatchesOf(const Plane& plane) {
     std::vector<std::uint32_t> on;
     const FastPlane fast(plane);
-    for (std::size_t i = 0; i < states_.size(); ++i) {
-      if (states_[i] != State::kFree || !lies(i, fast)) continue;
+    for (const std::uint32_t i : free_) {
+      if (!lies(i, fast)) continue;
       states_[i] = State::kOnPlane;
-      on.push_back(static_cast<std::uint32_t>(i));
+      on.push_back(i);
     }
     for (const std::uint32_t seed : on) {
       if (states_[seed] == State::kOnPlane) addPatch(connected(seed));
@@ -229,6 +234,7 @@ class PatchMaker {
     for (const std::uint32_t i : on) {
       if (states_[i] == State::kTooSmall) states_[i] = State::kFree;
     }
+    std::erase_if(free_, [this](std::uint32_t i) { return states_[i] == State::kTaken; });
   }
 
  private:
@@ -240,7 +246,6 @@ class PatchMaker {
 
   bool lies(std::size_t i, const FastPlane& plane) const {
     const Cell& c = cell(i);
-    if (!(c.depth > 0.0F)) return false;
     const float distance = c.depth * (plane.x * c.rayX + plane.y * c.rayY + plane.z) - plane.offset;
     if (!(std::abs(distance) < tolerance_[i])) return false;
     return !hasNormal(c) || plane.x * c.normalX + plane.y * c.normalY + plane.z * c.normalZ > leastCosine_[i];
@@ -299,6 +304,7 @@ class PatchMaker {
   double leastArea_;
   std::vector<PlanarPatch>& patches_;
   std::vector<State> states_;
+  std::vector<std::uint32_t> free_;  ///< cells of known depth that no patch has taken
   std::vector<float> tolerance_;
   std::vector<float> leastCosine_;
 };
