@@ -15,6 +15,7 @@ namespace {
 constexpr double kLeastWidth = 0.55;
 constexpr double kMostWidth = 2.3;
 constexpr double kWidestLeaf = 1.35;
+constexpr double kLeastDouble = 1.15;
 constexpr double kUsualHeight = 2.0;
 constexpr double kFrame = 0.1;         // metres, more than boards of frames are wide
 constexpr double kFrameDepth = 0.012;  // by which they usually stand out of the wall: too little to be measured
@@ -123,7 +124,8 @@ class Examination {
     if (width < kLeastWidth || width > kMostWidth) return std::nullopt;
     lookAtTop();
     if (!lookAtJambs()) return std::nullopt;
-    if (width > kWidestLeaf && !hasMiddleLine(lines)) return std::nullopt;
+    if (width > kLeastDouble && hasMiddleLine(lines)) found_.leaves = 2;
+    if (width > kWidestLeaf && found_.leaves == 1) return std::nullopt;
     lookBesideJambs(lines);
     lookAtFoot();
     lookAtLeaf();
@@ -273,9 +275,13 @@ void Examination::lookAtTop() {
   height_ = found_.top_z;
   const int near = columns(kFrame + 0.03);
   const int far = columns(0.35);
+  const double contrast = std::max(1.0, edges_.levelContrast(row + 1, first_ + inset, last_ - inset));
   const auto beyond = [&](int from, int to) {
     double most = 0.0;
-    for (int i = -3; i <= 3; ++i) most = std::max(most, edges_.levelEdge(row + i, from, to));
+    for (int i = -3; i <= 3; ++i) {
+      const double share = std::min(1.0, edges_.levelContrast(row + i, from, to) / contrast);
+      most = std::max(most, share * edges_.levelEdge(row + i, from, to));
+    }
     return most;
   };
   const double left = beyond(first_ - far, first_ - near);
@@ -324,15 +330,14 @@ bool Examination::lookAtJambs() {
 
 /// Two leaves meet in a line.
 bool Examination::hasMiddleLine(const std::vector<UprightLine>& lines) {
-  const double middle = 0.5 * (first_ + last_);
+  const double middle_x = 0.5 * (found_.left_x + found_.right_x) * wall_.shrinkage(found_.leaf_y);
   const double tolerance = 0.07 * (last_ - first_);
   const int top = leafRow(height_ - 0.1);
   const int bottom = leafRow(0.1);
-  const bool found = std::ranges::any_of(lines, [&](const UprightLine& line) {
-    return std::abs(line.columnAt(wall_.rowOf(1.0)) - middle) < tolerance && edges_.support(line, top, bottom) > 0.5;
+  return std::ranges::any_of(lines, [&](const UprightLine& line) {
+    return std::abs(line.columnAt(wall_.rowOf(1.0)) - wall_.columnOf(middle_x)) < tolerance &&
+           edges_.support(line, top, bottom) > 0.5;
   });
-  if (found) found_.leaves = 2;
-  return found;
 }
 
 /// A frame has an edge on its inner and one on its outer side.
@@ -432,7 +437,7 @@ void Examination::judgeSize() {
   found_.cue(Cue::kNarrow) = std::max(0.0, 0.75 - leaf) / 0.1;
   found_.cue(Cue::kWide) = std::max(0.0, leaf - 1.05) / 0.1;
   if (found_.top_z <= 0.0) return;
-  found_.cue(Cue::kLow) = std::max(0.0, 1.9 - found_.top_z) / 0.1;
+  found_.cue(Cue::kLow) = std::max(0.0, 1.8 - found_.top_z) / 0.1;
   found_.cue(Cue::kHigh) = std::max(0.0, found_.top_z - 2.15) / 0.1;
 }
 

@@ -258,7 +258,8 @@ WallEdges::WallEdges(const RectifiedWall& wall, double contrast) : sides_(sidesO
   const cv::Mat sharp = differencesAcross(wall.color(), sides_);
   upright_ = thinnedAcross(sharp, wall, sides_, least);
   addSoftEdges(upright_, sharp, wall, sides_, least);
-  const cv::Mat level = thinnedDown(differencesDown(wall.color()), wall, least);
+  down_ = differencesDown(wall.color());
+  const cv::Mat level = thinnedDown(down_, wall, least);
   const cv::Mat isEdge = (upright_ != 0) | level;
   cv::integral(isEdge / 255, edgeCount_, CV_32S);
   cv::Mat thick;
@@ -306,6 +307,19 @@ double WallEdges::levelEdge(int row, int first, int last) const {
   if (last <= first) return 0.0;
   const auto* count = levelCount_.ptr<int>(row);
   return static_cast<double>(count[last] - count[first]) / (last - first);
+}
+
+double WallEdges::levelContrast(int row, int first, int last) const {
+  first = std::clamp(first, 0, down_.cols);
+  last = std::clamp(last, 0, down_.cols);
+  if (row < 1 || row + 1 >= down_.rows || last <= first) return 0.0;
+  int sum = 0;
+  for (int column = first; column < last; ++column) {
+    int most = 0;
+    for (int i = row - 1; i <= row + 1; ++i) most = std::max<int>(most, std::abs(down_.at<std::int16_t>(i, column)));
+    sum += most;
+  }
+  return static_cast<double>(sum) / (last - first);
 }
 
 double WallEdges::density(int first, int last, int top, int bottom) const {

@@ -35,6 +35,8 @@ class WallEdges {
 
   /// Share of the columns [first, last) in which there is a level edge in `row`, or in one beside it.
   double levelEdge(int row, int first, int last) const;
+  /// Mean difference across that edge, 0 … 255.
+  double levelContrast(int row, int first, int last) const;
   /// Share of edge pixels, upright and level ones, in columns [first, last) and rows [top, bottom).
   double density(int first, int last, int top, int bottom) const;
   /// Share of the rows [top, bottom) in which `line`'s way has an upright edge.
@@ -47,6 +49,7 @@ class WallEdges {
 
   std::vector<int> sides_;  ///< per column, how wide edges are there, pixels
   cv::Mat upright_;         ///< CV_16S: signed difference where there is an upright edge, else 0
+  cv::Mat down_;            ///< CV_16S: differences downwards
   cv::Mat levelCount_;      ///< CV_32S: level edges (thickened by a row) left of a column in its row
   cv::Mat edgeCount_;       ///< CV_32S: integral image of edge pixels
 };

@@ -22,7 +22,7 @@ struct DoorDetectorConfig {
   int method = static_cast<int>(DoorMethod::kSegments);
   double reach = 8.0;          ///< metres; walls are looked at up to here
   double edgeContrast = 8.0;   ///< of a jamb, in the colour channel that differs most, 0 … 255
-  double tilt = 0.065;         ///< radians that a jamb may deviate from the vertical
+  double tilt = 0.09;          ///< radians that a jamb may deviate from the vertical
   double leastEvidence = 0.0;  ///< log-odds from which on a door is reported
 };
 
