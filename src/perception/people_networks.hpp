@@ -23,6 +23,8 @@ struct ImageJoint {
   cv::Point2d pixel;
   double score = 0.0;  ///< 0: not seen
 };
+/// Joints with lower scores are not seen.
+inline constexpr double kLeastJointScore = 0.1;
 using ImageJoints = std::array<ImageJoint, kJointCount>;
 
 /// yolo-fastest-1.1, once trained on persons alone and once on 80 classes: what one misses the other often finds.

@@ -22,7 +22,6 @@ const cv::Scalar kHeading(0, 220, 255);
 /// Pairs of joints with a bone between them.
 constexpr std::array<std::pair<int, int>, 13> kBones{
     {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {1, 5}, {5, 6}, {6, 7}, {1, 8}, {8, 9}, {9, 10}, {1, 11}, {11, 12}, {12, 13}}};
-constexpr double kDrawnScore = 0.15;
 
 }  // namespace
 
@@ -42,7 +41,7 @@ void PeopleDrawing::add(const PicturedPerson& person, const std::optional<Person
 }
 
 void PeopleDrawing::drawSkeleton(const ImageJoints& joints) {
-  const auto isSeen = [&](int i) { return joints[static_cast<std::size_t>(i)].score >= kDrawnScore; };
+  const auto isSeen = [&](int i) { return joints[static_cast<std::size_t>(i)].score >= kLeastJointScore; };
   const auto at = [&](int i) { return joints[static_cast<std::size_t>(i)].pixel; };
   for (const auto& [from, to] : kBones) {
     if (isSeen(from) && isSeen(to)) cv::line(picture_, at(from), at(to), kBone, 2);

@@ -4,20 +4,11 @@
 
 #include "prodomos/perception/person_sighting.hpp"
 
-#include "perception/people_networks.hpp"
-#include "perception/upright_view.hpp"
+#include "perception/person_body.hpp"
 
 #include <optional>
 
 namespace prodomos::perception {
-
-/// A person in an upright picture.
-struct PicturedPerson {
-  PersonBox box;
-  std::optional<ImageJoints> joints;
-  bool knowsSides = false;        ///< right and left of the joints can be believed
-  const cv::Mat* mask = nullptr;  ///< non-zero where the person is, as large as the picture; null: not known
-};
 
 /// As `box`, but down to where the feet would be, were nothing before them and did the person stand: networks find more
 /// joints in it. None where depth is not known.

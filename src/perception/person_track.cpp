@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -34,7 +33,7 @@ constexpr double kSureOfWalk = 1.5;
 constexpr double kShareOfLook = 0.5;
 constexpr base::Duration kLongestGap = std::chrono::milliseconds(1000);
 constexpr int kLeastSightings = 3;
-constexpr double kMostDoubt = 0.1;
+constexpr double kMostDoubt = 0.2;                                    ///< of who is told
 constexpr double kLeastWay = 1.0;                                     ///< metres, of who must move,
 constexpr base::Duration kWayTime = std::chrono::milliseconds(2500);  ///< in no more than that
 constexpr double kLateralReach = 3.0;                                 ///< metres that sides are looked at
@@ -55,34 +54,31 @@ double clearance(const map::OccupancyGrid& grid, const Vector2d& from, const Vec
 
 /// {"joints": [[x, y, z] or null, …]}, millimetres are enough; {} where none was seen.
 std::string attributesOf(const FollowedState& state) {
+  const auto& joints = state.joints_in_submap;
+  if (std::ranges::none_of(joints, [](const auto& joint) { return joint.has_value(); })) return "{}";
   std::string text;
-  bool any = false;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(kJointCount); ++i) {
-    const double* joint = &state.joints[3 * i];
-    std::array<char, 96> item{'n', 'u', 'l', 'l', '\0'};
-    if (std::isfinite(joint[0])) {
-      std::snprintf(item.data(), item.size(), "[%.3f, %.3f, %.3f]", joint[0], joint[1], joint[2]);
-      any = true;
-    }
-    text += (i == 0 ? "" : ", ") + std::string(item.data());
+  for (const auto& joint : joints) {
+    std::array<char, 96> item{"null"};
+    if (joint) std::snprintf(item.data(), item.size(), "[%.3f, %.3f, %.3f]", joint->x(), joint->y(), joint->z());
+    text += (text.empty() ? "" : ", ") + std::string(item.data());
   }
-  return any ? "{\"joints\": [" + text + "]}" : "{}";
+  return "{\"joints\": [" + text + "]}";
 }
 
 geometry::Pose3 poseOf(const FollowedState& state) {
-  return geometry::toPose3({state.position[0], state.position[1], state.heading}, state.position[2]);
+  return geometry::toPose3({state.position_in_submap.x(), state.position_in_submap.y(), state.heading},
+                           state.position_in_submap.z());
 }
 
-FollowedState between(const FollowedState& from, const FollowedState& to, std::int64_t time) {
-  const double share = static_cast<double>(time - from.time) / static_cast<double>(to.time - from.time);
+FollowedState between(const FollowedState& from, const FollowedState& to, base::Time time) {
+  const double share = base::seconds(time - from.time) / base::seconds(to.time - from.time);
   FollowedState state = from;
   state.time = time;
-  for (std::size_t i = 0; i < 3; ++i) state.position[i] += share * (to.position[i] - from.position[i]);
-  for (std::size_t i = 0; i < 2; ++i) state.velocity[i] += share * (to.velocity[i] - from.velocity[i]);
-  const double turn = geometry::normalizeAngle(to.heading - from.heading);
-  state.heading = geometry::normalizeAngle(from.heading + share * turn);
+  state.position_in_submap += share * (to.position_in_submap - from.position_in_submap);
+  state.velocity += share * (to.velocity - from.velocity);
+  state.heading = geometry::normalizeAngle(from.heading + share * geometry::normalizeAngle(to.heading - from.heading));
   state.sureOfFront = std::min(from.sureOfFront, to.sureOfFront);
-  state.joints.fill(std::numeric_limits<double>::quiet_NaN());
+  state.joints_in_submap.fill(std::nullopt);
   return state;
 }
 
@@ -102,7 +98,6 @@ PersonTrack::PersonTrack(base::SubMapId submap, const PersonSighting& sighting)
   appearance_ = sighting.appearance;
   updateHeading(sighting);
   sightings_ = 1;
-  scores_ = sighting.score;
   doubt_ = 1.0 - 0.5 * sighting.score;
   last_ = stateNow(submap, sighting);
   pending_.push_back(last_);
@@ -159,7 +154,6 @@ void PersonTrack::update(base::SubMapId submap, const PersonSighting& sighting) 
     }
   }
   ++sightings_;
-  scores_ += sighting.score;
   doubt_ *= 1.0 - 0.5 * sighting.score;
   if (mustMove_) watchForMotion(sighting);
   const FollowedState now = stateNow(submap, sighting);
@@ -230,32 +224,25 @@ void PersonTrack::turnRound() {
 }
 
 void PersonTrack::miss(base::Time time) {
-  if (time - lastSeen() <= kLongestGap) missed_.push_back(base::toNanoseconds(time));
+  if (time - lastSeen() <= kLongestGap) missed_.push_back(time);
 }
 
 /// Who was seen before and after, and not long between, was there.
 void PersonTrack::fillGap(const FollowedState& now) {
-  if (last_.submap == now.submap && now.time - last_.time <= kLongestGap.count()) {
+  if (last_.submap == now.submap && now.time - last_.time <= kLongestGap) {
     for (const auto time : missed_) pending_.push_back(between(last_, now, time));
   }
   missed_.clear();
 }
 
 FollowedState PersonTrack::stateNow(base::SubMapId submap, const PersonSighting& sighting) const {
-  FollowedState now;
-  now.time = base::toNanoseconds(sighting.time);
-  now.submap = submap.value;
-  now.position = {state_.x(), state_.y(), floor_z_};
-  now.heading = heading_;
-  now.sureOfFront = front_;
-  now.velocity = {state_(2), state_(3)};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(kJointCount); ++i) {
-    const auto& joint = sighting.joints_in_submap[i];
-    for (std::size_t k = 0; k < 3; ++k) {
-      now.joints[3 * i + k] = joint ? (*joint)(static_cast<Eigen::Index>(k)) : std::numeric_limits<double>::quiet_NaN();
-    }
-  }
-  return now;
+  return {.time = sighting.time,
+          .submap = submap,
+          .position_in_submap = {state_.x(), state_.y(), floor_z_},
+          .heading = heading_,
+          .sureOfFront = front_,
+          .velocity = state_.tail<2>(),
+          .joints_in_submap = sighting.joints_in_submap};
 }
 
 void PersonTrack::lookAround(const map::OccupancyGrid& grid) {
@@ -291,12 +278,12 @@ void PersonTrack::takeOver(PersonTrack&& other) {
 
 bool PersonTrack::isConvincing() const {
   if (mustMove_) return false;
-  return sightings_ >= kLeastSightings && doubt_ < 2.0 * kMostDoubt;
+  return sightings_ >= kLeastSightings && doubt_ < kMostDoubt;
 }
 
 map::Entity PersonTrack::entity() const {
   map::Entity entity{.id = entityId,
-                     .submap = base::SubMapId{last_.submap},
+                     .submap = last_.submap,
                      .T_submap_entity = poseOf(last_),
                      .confidence = 1.0 - doubt_,
                      .observations = sightings_,
@@ -306,7 +293,7 @@ map::Entity PersonTrack::entity() const {
   entity.covariance.topLeftCorner<2, 2>() = covariance_.topLeftCorner<2, 2>();
   entity.covariance(5, 5) = hasHeading_ ? headingVariance_ : kPi * kPi;
   auto& human = std::get<map::Human>(entity.attributes);
-  human.velocity = {last_.velocity[0], last_.velocity[1], 0.0};
+  human.velocity << last_.velocity, 0.0;
   human.dominantSide = sides_ == 0.0 ? 0 : (sides_ > 0.0 ? 1 : -1);
   return entity;
 }
@@ -314,40 +301,13 @@ map::Entity PersonTrack::entity() const {
 std::vector<map::TrackState> PersonTrack::takeStates() {
   std::vector<map::TrackState> states;
   for (const FollowedState& state : std::exchange(pending_, {})) {
-    states.push_back({.time = base::fromNanoseconds(state.time),
-                      .submap = base::SubMapId{state.submap},
+    states.push_back({.time = state.time,
+                      .submap = state.submap,
                       .T_submap_thing = poseOf(state),
-                      .velocity_in_submap = Vector3d(state.velocity[0], state.velocity[1], 0.0),
+                      .velocity_in_submap = Vector3d(state.velocity.x(), state.velocity.y(), 0.0),
                       .attributes = attributesOf(state)});
   }
   return states;
-}
-
-void PersonTrack::save(base::ByteWriter& out) const {
-  out.append(state_.data(), sizeof(double) * 4);
-  out.append(covariance_.data(), sizeof(double) * 16);
-  out << floor_z_ << base::toNanoseconds(time_) << heading_ << headingVariance_ << front_ << hasHeading_;
-  out.append(appearance_.data(), sizeof appearance_);
-  out << doubt_ << scores_ << sightings_ << mustMove_ << start_.x() << start_.y() << base::toNanoseconds(startTime_)
-      << base::toNanoseconds(firstSeen_) << sides_;
-  out.append(&last_, sizeof last_);
-  out << missed_ << pending_ << track.value << entityId.value << hasChanged;
-}
-
-void PersonTrack::load(base::ByteReader& in) {
-  in.take(state_.data(), sizeof(double) * 4);
-  in.take(covariance_.data(), sizeof(double) * 16);
-  std::int64_t time = 0;
-  std::int64_t startTime = 0;
-  std::int64_t firstSeen = 0;
-  in >> floor_z_ >> time >> heading_ >> headingVariance_ >> front_ >> hasHeading_;
-  in.take(appearance_.data(), sizeof appearance_);
-  in >> doubt_ >> scores_ >> sightings_ >> mustMove_ >> start_.x() >> start_.y() >> startTime >> firstSeen >> sides_;
-  in.take(&last_, sizeof last_);
-  in >> missed_ >> pending_ >> track.value >> entityId.value >> hasChanged;
-  time_ = base::fromNanoseconds(time);
-  startTime_ = base::fromNanoseconds(startTime);
-  firstSeen_ = base::fromNanoseconds(firstSeen);
 }
 
 }  // namespace prodomos::perception

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "prodomos/base/bytes.hpp"
 #include "prodomos/base/id.hpp"
 #include "prodomos/geometry/pose.hpp"
 #include "prodomos/map/entity.hpp"
@@ -11,21 +10,25 @@
 #include "prodomos/perception/person_sighting.hpp"
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace prodomos::perception {
 
-/// Where a person was at one time, as written to the map. Without padding, so that it is saved as it is.
+/// Where a person was at one time, as written to the map.
 struct FollowedState {
-  std::int64_t time = 0;  ///< nanoseconds
-  std::int64_t submap = 0;
-  std::array<double, 3> position{};  ///< in the sub-map
+  base::Time time{};
+  base::SubMapId submap;
+  Eigen::Vector3d position_in_submap = Eigen::Vector3d::Zero();
   double heading = 0.0;
   double sureOfFront = 0.0;  ///< log-odds of the heading against its opposite
-  std::array<double, 2> velocity{};
-  std::array<double, 3 * kJointCount> joints{};  ///< NaN: not seen
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+  std::array<std::optional<Eigen::Vector3d>, kJointCount> joints_in_submap{};
+
+  static void fields(auto& archive, auto& self) {
+    archive(self.time, self.submap, self.position_in_submap, self.heading, self.sureOfFront, self.velocity,
+            self.joints_in_submap);
+  }
 };
 
 /// One person that is followed. Position and velocity: a Kalman filter of constant velocity; heading: one on the
@@ -54,7 +57,7 @@ class PersonTrack {
   /// Goes on as the person that `other` followed before.
   void takeOver(PersonTrack&& other);
 
-  base::Time lastSeen() const { return base::fromNanoseconds(last_.time); }
+  base::Time lastSeen() const { return last_.time; }
   Eigen::Vector2d position() const { return state_.head<2>(); }
   const Appearance& appearance() const { return appearance_; }
   bool isConfirmed() const { return track.value >= 0; }
@@ -65,8 +68,12 @@ class PersonTrack {
   /// What there is to be written, and is not yet.
   std::vector<map::TrackState> takeStates();
 
-  void save(base::ByteWriter& out) const;
-  void load(base::ByteReader& in);
+  static void fields(auto& archive, auto& self) {
+    archive(self.track, self.entityId, self.hasChanged, self.state_, self.covariance_, self.floor_z_, self.time_,
+            self.heading_, self.headingVariance_, self.front_, self.hasHeading_, self.appearance_, self.doubt_,
+            self.sightings_, self.mustMove_, self.start_, self.startTime_, self.firstSeen_, self.sides_, self.last_,
+            self.missed_, self.pending_);
+  }
 
   base::TrackId track{-1};
   base::EntityId entityId{-1};
@@ -91,7 +98,6 @@ class PersonTrack {
   bool hasHeading_ = false;
   Appearance appearance_{};
   double doubt_ = 1.0;  ///< probability that all sightings were of something else
-  double scores_ = 0.0;
   int sightings_ = 0;
   bool mustMove_ = false;
   Eigen::Vector2d start_ = Eigen::Vector2d::Zero();  ///< where it was a moment ago,
@@ -99,7 +105,7 @@ class PersonTrack {
   base::Time firstSeen_{};
   double sides_ = 0.0;  ///< readings in which the right side was nearer to something, less those with the left
   FollowedState last_;  ///< where it was seen last
-  std::vector<std::int64_t> missed_;  ///< times of readings since
+  std::vector<base::Time> missed_;  ///< readings since
   std::vector<FollowedState> pending_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "prodomos/geometry/assignment.hpp"
 
+#include "perception/archive.hpp"
 #include "perception/person_track.hpp"
 
 #include <algorithm>
@@ -45,8 +46,10 @@ class PersonTracker::Implementation {
   void enter(const geometry::Pose3& T_submap_before);
   std::vector<map::Entity> entities() const;
   void addTo(map::MapChange& change);
-  void save(base::ByteWriter& out) const;
-  void load(base::ByteReader& in);
+
+  static void fields(auto& archive, auto& self) {
+    archive(self.nextTrack_, self.lastTime_, self.tracks_, self.remembered_, self.forgotten_);
+  }
 
  private:
   std::vector<bool> follow(base::SubMapId submap, base::Time time, const std::vector<PersonSighting>& sightings);
@@ -179,25 +182,6 @@ void PersonTracker::Implementation::addTo(map::MapChange& change) {
   forgotten_.clear();
 }
 
-void PersonTracker::Implementation::save(base::ByteWriter& out) const {
-  out << nextTrack_ << lastTime_.has_value() << base::toNanoseconds(lastTime_.value_or(base::Time{}));
-  for (const auto* tracks : {&tracks_, &remembered_, &forgotten_}) {
-    out << static_cast<std::uint64_t>(tracks->size());
-    for (const auto& track : *tracks) track.save(out);
-  }
-}
-
-void PersonTracker::Implementation::load(base::ByteReader& in) {
-  in >> nextTrack_;
-  const bool hasTime = in.read<bool>();
-  const auto time = base::fromNanoseconds(in.read<std::int64_t>());
-  lastTime_ = hasTime ? std::optional(time) : std::nullopt;
-  for (auto* tracks : {&tracks_, &remembered_, &forgotten_}) {
-    tracks->clear();
-    for (auto count = in.read<std::uint64_t>(); count > 0; --count) tracks->emplace_back().load(in);
-  }
-}
-
 PersonTracker::PersonTracker(const PeopleConfig& config, base::SessionId session, std::int64_t firstTrack,
                              std::function<base::EntityId()> nextEntity)
     : implementation_(std::make_unique<Implementation>(config, session, firstTrack, std::move(nextEntity))) {}
@@ -227,11 +211,13 @@ void PersonTracker::addTo(map::MapChange& change) {
 }
 
 void PersonTracker::save(base::ByteWriter& out) const {
-  implementation_->save(out);
+  Saving archive(out);
+  Implementation::fields(archive, *implementation_);
 }
 
 void PersonTracker::load(base::ByteReader& in) {
-  implementation_->load(in);
+  Loading archive(in);
+  Implementation::fields(archive, *implementation_);
 }
 
 }  // namespace prodomos::perception
