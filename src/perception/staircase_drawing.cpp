@@ -73,9 +73,6 @@ class Pen {
     const auto b = pixel(to);
     if (a && b) cv::line(picture_, *a, *b, color, thickness, cv::LINE_AA);
   }
-  void text(const Eigen::Vector3d& at, const std::string& text, const cv::Scalar& color) {
-    if (const auto p = pixel(at)) cv::putText(picture_, text, *p, cv::FONT_HERSHEY_SIMPLEX, 0.5, color, 1, cv::LINE_AA);
-  }
 
  private:
   std::optional<cv::Point> pixel(const Eigen::Vector3d& point_in_submap) const {
@@ -105,10 +102,13 @@ void draw(Pen& pen, const StaircaseSighting& flight) {
   pen.line(at(0.0, half, foot_z), at(0.0, -half, foot_z), kFoot, flight.footIsSeen ? 3 : 1);
   const Step& top = flight.steps.back();
   pen.line(at(0.0, 0.0, foot_z), at(top.along, 0.0, top.z), kUphill, 2);
+}
+
+std::string describe(const StaircaseSighting& flight) {
   std::array<char, 80> text{};
   std::snprintf(text.data(), text.size(), "%zu steps, %.2f m wide, to %.2f m, log-odds %.1f", flight.steps.size(),
                 flight.width, flight.newFloor_z, flight.evidence);
-  pen.text(at(0.0, half, foot_z) + Eigen::Vector3d(0.0, 0.0, 0.05), text.data(), kUphill);
+  return text.data();
 }
 
 }  // namespace
@@ -118,7 +118,11 @@ sensors::Image<sensors::Rgb> drawStaircases(const RgbdView& view, const Surfaces
   cv::Mat picture = backgroundOf(view);
   tint(picture, surfaces);
   Pen pen(picture, view);
-  for (const StaircaseSighting& flight : flights) draw(pen, flight);
+  int line = 0;
+  for (const StaircaseSighting& flight : flights) {
+    draw(pen, flight);
+    cv::putText(picture, describe(flight), {8, 22 * ++line}, cv::FONT_HERSHEY_SIMPLEX, 0.6, kUphill, 1, cv::LINE_AA);
+  }
   sensors::Image<sensors::Rgb> image(picture.cols, picture.rows);
   std::copy_n(picture.ptr<sensors::Rgb>(), image.size(), image.data());
   return image;

@@ -171,7 +171,8 @@ void Flight::tellNewFloor(StaircaseSighting& sighting) const {
   if (const auto ceiling = ceiling_z()) {
     const double steps = std::round((*ceiling + kSlab - tread_z(0)) / lattice_.rise);
     sighting.newFloor_z = tread_z(static_cast<int>(steps));
-    sighting.newFloorSigma = 0.4;
+    // The more of it is out of sight, the likelier there is a landing in between.
+    sighting.newFloorSigma = 0.15 + 0.35 * std::max(sighting.newFloor_z - tread_z(highest), 0.0);
   } else {
     sighting.newFloor_z = tread_z(highest + 1);
     sighting.newFloorSigma = 1.0;
