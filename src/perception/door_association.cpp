@@ -15,7 +15,7 @@ namespace {
 constexpr double kGreatestTurn = 0.6;   // radians, between normals of one door
 constexpr double kGreatestRise = 1.0;   // metres: other storeys
 constexpr double kGreatestDepth = 0.5;  // metres across the wall
-constexpr double kGate = 20.5;          // chi² of 5 degrees of freedom, 99.9 %
+constexpr double kGate = 15.1;          // chi² of 5 degrees of freedom, 99 %
 constexpr double kRecess = 0.1;         // metres that a leaf stands off the middle of its opening
 constexpr double kTallest = 4.0;        // metres
 constexpr double kFarthest = 1e4;       // metres from the sub-map's origin

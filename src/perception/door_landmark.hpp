@@ -34,12 +34,13 @@ struct DoorLandmark : Landmark {
   double hinge = 0.0;  ///< log-odds of the left side
   double leaf = 0.0;   ///< log-odds that there is a leaf
   DoorStateFilter state;
-  bool isRivalled = false;  ///< one that is likelier stands in the same place
+  double closedLeafNow = 0.0;  ///< evidence for a leaf that the last reading gave by a closed one
+  bool isRivalled = false;     ///< one that is likelier stands in the same place
 
   static void fields(auto& archive, auto& self) {
     Landmark::fields(archive, self);
     archive(self.looks, self.pose_in_submap, self.covariance, self.width, self.widthSigma, self.height, self.hinge,
-            self.leaf, self.state, self.isRivalled);
+            self.leaf, self.state, self.closedLeafNow, self.isRivalled);
   }
 };
 

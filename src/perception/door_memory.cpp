@@ -20,6 +20,7 @@ constexpr double kFarthestLook = 6.0;       // metres
 constexpr double kLeastKnown = 0.6;
 constexpr double kClearlyThrough = 0.8;
 constexpr double kClearlyFilled = 0.9;
+constexpr double kHardlyFilled = 0.5;   // where a closed leaf was found all the same, it was none
 constexpr double kGreatestSigma = 0.2;  // metres; where a door is known no better, one may look past it
 /// Where there is no wall, there is no door: as bad as so many misses.
 constexpr double kNoWall = 3.0;
@@ -28,6 +29,7 @@ constexpr double kClearlyLikelier = 1.0;
 
 /// Of a reading that shows an opening and no leaf, or a depth that goes through it: closed, ajar, open.
 constexpr DoorStateFilter::Likelihoods kOpening = {0.1, 0.3, 0.6};
+constexpr DoorStateFilter::Likelihoods kSeenThrough = {0.02, 0.3, 0.68};
 
 void tellState(DoorLandmark& door, base::Time time, const DoorStateFilter::Likelihoods& likelihoods,
                const EntityMemoryConfig& config) {
@@ -69,6 +71,7 @@ void DoorMemory::add(const Frames& frames, const Eigen::Vector3d& sensor_in_subm
     auto& look = lookFrom(door.looks, frames.submap(), sensor_in_submap, config_.lookSpacing);
     fuse(look, possible[i], geometry::yaw(frames.T_submap_other(door.submap) * poseOf(door.pose_in_submap)), config_);
     door.noteDetection(possible[i].time);
+    door.closedLeafNow = possible[i].door.state == map::DoorState::kClosed ? possible[i].evidence : 0.0;
     tellState(door, possible[i], config_);
     touched.push_back(*landmarkOf[i]);
   }
@@ -199,14 +202,26 @@ void DoorMemory::look(const Frames& frames, const RgbdView& view, const Surfaces
   }
 }
 
+/// What was taken for a closed leaf in this view is none: there is no surface.
+void DoorMemory::takeBackLeaf(DoorLandmark& door, const Frames& frames, const RgbdView& view) const {
+  if (!(door.closedLeafNow > 0.0)) return;
+  auto& look = lookFrom(door.looks, frames.submap(), view.T_submap_camera.translation(), config_.lookSpacing);
+  look.leaf -= door.closedLeafNow + config_.openingAgainstLeaf;
+  door.closedLeafNow = 0.0;
+  refresh(door, frames, config_);
+  tellState(door, view.time, kSeenThrough, config_);
+}
+
 void DoorMemory::see(DoorLandmark& door, const Frames& frames, const RgbdView& view, const Surfaces& surfaces) const {
   const auto place = placeOf(door, frames, config_);
   if (place.covariance.topLeftCorner<2, 2>().trace() > kGreatestSigma * kGreatestSigma) return;
   const auto appearance = appearanceOf(poseOf(place.pose), door.width, door.height, view, surfaces);
   const bool isDetected = door.lastDetected == view.time;
-  if (appearance.known() >= kLeastKnown && !isDetected) {
-    if (appearance.through >= kClearlyThrough && !appearance.hasNoWall) tellState(door, view.time, kOpening, config_);
-    if (appearance.filled >= kClearlyFilled) {
+  if (appearance.known() >= kLeastKnown) {
+    const bool isSeenThrough = appearance.through >= kClearlyThrough * appearance.known();
+    if (isSeenThrough && !appearance.hasNoWall) tellState(door, view.time, kSeenThrough, config_);
+    if (isDetected && appearance.filled < kHardlyFilled * appearance.known()) takeBackLeaf(door, frames, view);
+    if (!isDetected && appearance.filled >= kClearlyFilled) {
       tellState(door, view.time, DoorStateFilter::told(map::DoorState::kClosed, config_.stateTrust), config_);
     }
   }

@@ -39,6 +39,7 @@ class DoorMemory {
   void mergeAll(const Frames& frames);
   void settleRivals(std::size_t door, const Frames& frames);
   void prune();
+  void takeBackLeaf(DoorLandmark& door, const Frames& frames, const RgbdView& view) const;
   void see(DoorLandmark& door, const Frames& frames, const RgbdView& view, const Surfaces& surfaces) const;
 
   EntityMemoryConfig config_;

@@ -19,6 +19,7 @@ constexpr std::size_t kMostRungs = 60;
 constexpr std::size_t kMostPoints = 500;
 constexpr double kClearlyBetter = 1.5;  // as of doors: a sub-map shows it so many times better
 constexpr double kSureOfFloor = 0.4;    // of a riser: a floor known so well is one of the steps' heights
+constexpr double kLeastShare = 0.15;    // of the sightings of a floor: fewer are strays
 constexpr double kFootKnown = 0.3;      // metres along the flight
 constexpr double kPointSigma = 0.02;    // metres, of an edge in one reading
 
@@ -81,6 +82,13 @@ base::SubMapId bestSubmap(const StaircaseLandmark& stairs) {
   return stays ? stairs.submap : best->first;
 }
 
+/// A floor that a flight leads from or to, as one look has it.
+struct Floor {
+  double z = 0.0;
+  double sigma = 0.0;
+  int sightings = 0;
+};
+
 /// All looks together, in the frame where the landmark is kept.
 class FlightFusion {
  public:
@@ -108,7 +116,8 @@ class FlightFusion {
   bool fuseHeading();
   double riser() const;
   std::vector<Tread> treads() const;
-  std::optional<Measured<1>> floorOf(Mean StaircaseLook::*floor) const;
+  std::vector<Floor> floorsOf(Mean StaircaseLook::*floor) const;
+  std::optional<int> sureStep(const std::vector<Floor>& floors, const StepLadder& ladder, bool isLowest) const;
   void placeFloors(const StepLadder& ladder);
   void placeAcross(const StepLadder& ladder);
 
@@ -158,37 +167,48 @@ std::vector<Tread> FlightFusion::treads() const {
   return treads;
 }
 
-std::optional<Measured<1>> FlightFusion::floorOf(Mean StaircaseLook::*floor) const {
-  std::vector<Measured<1>> heights;
+std::vector<Floor> FlightFusion::floorsOf(Mean StaircaseLook::*floor) const {
+  std::vector<Floor> floors;
   for (const auto& look : stairs_.looks) {
     const Mean& mean = look.*floor;
     if (!(mean.weight > 0.0)) continue;
     const double variance = 1.0 / (mean.weight * share(look)) + square(kPointSigma);
-    heights.push_back({Eigen::Matrix<double, 1, 1>(mean.value + zOffset(look)), Eigen::Matrix<double, 1, 1>(variance)});
+    floors.push_back({mean.value + zOffset(look), std::sqrt(variance), look.sightings});
   }
-  if (heights.empty()) return std::nullopt;
-  return robustMean(heights);
+  return floors;
 }
 
-/// Floors below and above, where they were seen, else one riser below the lowest tread, and the highest tread.
-void FlightFusion::placeFloors(const StepLadder& ladder) {
-  const auto stepAt = [&](const Measured<1>& floor) {
-    return static_cast<int>(std::lround((floor.value[0] - ladder.bottom_z) / ladder.riser));
-  };
-  const auto isSure = [&](const Measured<1>& floor) {
-    return std::sqrt(floor.covariance(0, 0)) < kSureOfFloor * ladder.riser;
-  };
-  int below = ladder.lowest - 1;
-  if (const auto floor = floorOf(&StaircaseLook::foot_z)) {
-    if (isSure(*floor) || floor->value[0] < ladder.zOf(below)) below = std::min(stepAt(*floor), below);
+/// The tread that is the floor. To who stands on a step, this seems to be the floor: the lowest of those below is
+/// meant, and the highest of those above, if it is no stray.
+std::optional<int> FlightFusion::sureStep(const std::vector<Floor>& floors, const StepLadder& ladder,
+                                          bool isLowest) const {
+  std::map<int, int> sightings;
+  int all = 0;
+  for (const auto& floor : floors) {
+    if (floor.sigma > kSureOfFloor * ladder.riser) continue;
+    sightings[static_cast<int>(std::lround((floor.z - ladder.bottom_z) / ladder.riser))] += floor.sightings;
+    all += floor.sightings;
   }
+  std::erase_if(sightings, [all](const auto& entry) { return entry.second < kLeastShare * all; });
+  if (sightings.empty()) return std::nullopt;
+  return isLowest ? sightings.begin()->first : sightings.rbegin()->first;
+}
+
+/// Floors below and above, where they were seen, else one riser below the lowest tread; above what is guessed, at least
+/// the highest tread.
+void FlightFusion::placeFloors(const StepLadder& ladder) {
+  int below = ladder.lowest - 1;
+  if (const auto foot = sureStep(floorsOf(&StaircaseLook::foot_z), ladder, true)) below = std::min(below, *foot);
   foot_z_ = ladder.zOf(below);
   footAlong_ = ladder.alongOf(below + 1);
-  stairs_.rise = ladder.zOf(ladder.highest) - foot_z_;
-  if (const auto floor = floorOf(&StaircaseLook::head_z)) {
-    const double top_z = isSure(*floor) ? ladder.zOf(stepAt(*floor)) : floor->value[0];
-    stairs_.rise = std::max(stairs_.rise, top_z - foot_z_);
+  double top_z = ladder.zOf(ladder.highest);
+  const auto heads = floorsOf(&StaircaseLook::head_z);
+  if (const auto head = sureStep(heads, ladder, false)) {
+    top_z = std::max(top_z, ladder.zOf(*head));
+  } else if (!heads.empty()) {
+    top_z = std::max(top_z, std::ranges::min_element(heads, {}, &Floor::sigma)->z);
   }
+  stairs_.rise = top_z - foot_z_;
   stairs_.riser = ladder.riser;
   stairs_.depth = ladder.depth;
 }

@@ -358,7 +358,9 @@ class Drive {
                   sighting.share, sighting.images.size(), text(things[i]).c_str());
       if (match == matches.end()) continue;
       const auto& claim = claims[static_cast<std::size_t>(match - matches.begin())];
-      std::printf("        %s: %s\n", toString(claim.id).c_str(), text(claim).c_str());
+      const auto entity = std::ranges::find(change_.entities, claim.id, &map::Entity::id);
+      std::printf("        %s: %s, confidence %.3f, seen %d times\n", toString(claim.id).c_str(), text(claim).c_str(),
+                  entity->confidence, entity->observations);
     }
     for (std::size_t i = 0; i < claims.size(); ++i) {
       if (matches[i].verdict == evaluation::Verdict::kRight) continue;
