@@ -17,7 +17,7 @@ struct DoorwayDetectorConfig {
   double mostThickness = 0.4;  ///< metres, of the wall; deeper ones are corridors
   double leastWall = 0.5;      ///< metres of wall beside the jambs; less is furniture or a person
   double leastSpace = 0.6;     ///< metres of free floor before and behind; less is a niche or a cupboard
-  double leastDetour = 3.0;    ///< metres; what one can go around on a shorter way is a gap between furniture
+  double leastDetour = 4.0;    ///< metres; what one can go around on a shorter way is a gap between furniture
 };
 
 void describe(base::ConfigVisitor& visitor, DoorwayDetectorConfig& config);
