@@ -88,6 +88,19 @@ TEST(EntityMemory, OneSeesThroughADoorThatWasClosed) {
   EXPECT_EQ(bench.entities()[0].lastSeen, test::at(10.8));
 }
 
+TEST(EntityMemory, WhatOneLooksThroughIsNoClosedLeafWhateverAnImageSays) {
+  MemoryBench bench;
+  SightingMaker maker(11);
+  for (int i = 0; i < 10; ++i) {
+    const auto camera = cameraAt(-0.5 + 0.1 * i);
+    bench.add(0, camera, {maker.see(kDoor, camera, 0.2 * i)});
+    look(bench, Scene::kOpening, -0.5 + 0.1 * i, 0.2 * i);
+  }
+  ASSERT_THAT(bench.entities(), SizeIs(1));
+  EXPECT_FALSE(doorOf(bench.entities()[0]).hasLeaf);
+  EXPECT_EQ(doorOf(bench.entities()[0]).state, DoorState::kOpen);
+}
+
 TEST(EntityMemory, ASurfaceInTheOpeningClosesTheDoor) {
   MemoryBench bench;
   SightingMaker maker(2);

@@ -171,6 +171,19 @@ TEST(StaircaseMemory, SeenFromBelowAndFromAboveIsOneFlight) {
   expectFlight(bench, bench.entities()[0], kFlight);
 }
 
+TEST(StaircaseMemory, WhoClimbsDoesNotTakeTheStepBelowForTheFloor) {
+  MemoryBench bench;
+  FlightMaker maker(kFlight, 11);
+  for (int i = 0; i < 5; ++i) add(bench, 0, {0.3 * i, 0.0, 1.2}, maker.see(i, 1, 9));
+  for (int tread = 1; tread < 10; ++tread) {  // standing on it, it seems to be the floor that the next ones rise from
+    auto seen = maker.see(10.0 + tread, tread + 1, std::min(tread + 8, kFlight.count));
+    seen.footIsSeen = true;
+    add(bench, 0, {1.5 + 0.3 * tread, 0.0, 1.2 + tread * kFlight.riser}, seen);
+  }
+  ASSERT_THAT(bench.entities(), SizeIs(1));
+  expectFlight(bench, bench.entities()[0], kFlight);
+}
+
 TEST(StaircaseMemory, AFlightThatIsOnlySeenFromAboveDescends) {
   MemoryBench bench;
   bench.submaps[0] = geometry::toPose3({8.0, 3.0, -2.0}, kFlight.rise());
