@@ -12,17 +12,21 @@
 #include "support/simulated_rooms.hpp"
 
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace prodomos::test {
 
-/// Boxes in a room of 12 x 12 x 2.8 m around the origin, floor at z = 0, as a depth camera sees them.
+/// A scene as a depth camera sees it: boxes in a room of 12 x 12 x 2.8 m around the origin, floor at z = 0, or
+/// anything.
 class DepthScene {
  public:
   explicit DepthScene(const Eigen::Vector3d& room = {12.0, 12.0, 2.8}) : surfaces_(emptyRoom(room)) {}
+  explicit DepthScene(std::vector<simulation::Surface> surfaces) : surfaces_(std::move(surfaces)) {}
 
   void addBox(const geometry::Pose3& T_world_box, const Eigen::Vector3d& size) {
+    rays_.reset();
     surfaces_.push_back(simulation::boxSurface(T_world_box, size, {}, simulation::classId("table"), 1));
   }
   /// A box with its lower front edge's middle at `foot`, reaching `size` ahead of it, to both sides and up.
@@ -33,7 +37,6 @@ class DepthScene {
   /// What a camera there measures, with the noise of structured light or none.
   sensors::RgbdFrame look(const geometry::Pose3& T_world_camera, bool noisy = true, std::uint64_t seed = 1) const {
     const simulation::CameraModel camera;
-    const simulation::RayScene scene(surfaces_);
     std::vector<simulation::Ray> rays;
     for (int y = 0; y < camera.height; ++y) {
       for (int x = 0; x < camera.width; ++x) {
@@ -43,7 +46,7 @@ class DepthScene {
       }
     }
     std::vector<simulation::Hit> hits(rays.size());
-    scene.cast(rays, hits);
+    rayScene().cast(rays, hits);
     simulation::Rendering picture{.depth = {camera.width, camera.height},
                                   .cosine = {camera.width, camera.height},
                                   .infrared = {camera.width, camera.height, 0.8F}};
@@ -59,8 +62,14 @@ class DepthScene {
     return frame;
   }
 
+  const simulation::RayScene& rayScene() const {
+    if (!rays_) rays_ = std::make_unique<simulation::RayScene>(surfaces_);
+    return *rays_;
+  }
+
  private:
   std::vector<simulation::Surface> surfaces_;
+  mutable std::unique_ptr<simulation::RayScene> rays_;
 };
 
 /// A camera at `position` that looks along `yaw`, `pitch` downwards (radians).
