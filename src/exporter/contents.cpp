@@ -63,4 +63,26 @@ std::vector<map::Edge> observedEdges(const map::MapView& view) {
   return edges;
 }
 
+std::vector<Trail> trailsOf(const map::MapView& view) {
+  std::vector<Trail> trails;
+  const auto finish = [&trails](Trail& trail) {
+    if (trail.points_in_map.size() > 1) trails.push_back(trail);
+    trail.points_in_map.clear();
+  };
+  for (const auto& track : view.tracks()) {
+    if (track.className != "human") continue;
+    Trail trail{.track = track.id};
+    for (const auto& state : track.states) {
+      const auto* node = view.graph().findNode(state.submap);
+      if (node == nullptr) continue;
+      if (trail.floor != node->floor) finish(trail);
+      if (trail.points_in_map.empty()) trail.submap = node->id;
+      trail.floor = node->floor;
+      trail.points_in_map.emplace_back((node->T_map_submap * state.T_submap_thing).translation());
+    }
+    finish(trail);
+  }
+  return trails;
+}
+
 }  // namespace prodomos::exporter

@@ -22,6 +22,17 @@ std::string logNames(const map::MapView& view);
 /// Of the two that turn alike, the one with w >= 0.
 Eigen::Quaterniond quaternionOf(const geometry::Pose3& pose);
 geometry::Pose3 poseInMap(const map::MapView& view, const map::Entity& entity);
+
+/// The way of somebody who was followed, as far as it lies on one floor.
+struct Trail {
+  base::TrackId track;
+  std::optional<int> floor;
+  base::SubMapId submap;  ///< where it begins
+  std::vector<Eigen::Vector3d> points_in_map;
+};
+/// Of all tracks of people; in pieces of two points or more.
+std::vector<Trail> trailsOf(const map::MapView& view);
+
 /// The bet that a predicted node stands for; null where there is none.
 const map::Prediction* predictionOf(const map::MapView& view, base::SubMapId node);
 

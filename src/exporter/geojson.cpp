@@ -91,11 +91,19 @@ Json trajectoryFeatures(const map::MapView& view) {
   return lines;
 }
 
+Json trailFeature(const Trail& trail) {
+  Json line = Json::array();
+  for (const auto& point : trail.points_in_map) line.push_back(coordinates(point));
+  return feature(toString(trail.track), "LineString", std::move(line),
+                 {{"feature", "trail"}, {"class", "human"}, {"floor", optionalJson(trail.floor)}});
+}
+
 }  // namespace
 
 void writeGeojson(const map::MapView& view, const Path& path) {
   const auto& graph = view.graph();
   Json features = trajectoryFeatures(view);
+  for (const auto& trail : trailsOf(view)) features.push_back(trailFeature(trail));
   for (const auto& prediction : view.predictions()) {
     for (const auto& area : prediction.areas) {
       if (area.outline_in_submap.size() > 2) features.push_back(areaFeature(view, prediction, area));

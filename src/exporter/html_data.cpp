@@ -201,6 +201,18 @@ Json trajectoryOf(const map::MapView& view) {
   return pieces;
 }
 
+Json trailsJson(const map::MapView& view) {
+  Json trails = Json::array();
+  for (const auto& trail : trailsOf(view)) {
+    Polyline line;
+    for (const auto& point : trail.points_in_map) line.push_back(point.head<2>());
+    trails.push_back({{"track", toString(trail.track)},
+                      {"floor", optionalJson(trail.floor)},
+                      {"points", pointsJson(simplified(line, kTrajectoryTolerance))}});
+  }
+  return trails;
+}
+
 Json totalsOf(const map::MapView& view, double area) {
   const auto observed = observedNodes(view).size();
   const auto places = std::ranges::count_if(view.graph().places(), [&](const map::TopologicalPlace& place) {
@@ -231,7 +243,8 @@ Json htmlData(const map::MapView& view, const HtmlOptions& options) {
           {"entities", listOf(view.entities(), [&](const map::Entity& entity) { return entityOf(view, entity); })},
           {"predictions",
            listOf(view.predictions(), [&](const map::Prediction& bet) { return predictionJson(view, bet); })},
-          {"trajectory", trajectoryOf(view)}};
+          {"trajectory", trajectoryOf(view)},
+          {"trails", trailsJson(view)}};
 }
 
 }  // namespace prodomos::exporter

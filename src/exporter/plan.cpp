@@ -168,7 +168,7 @@ Picture planOf(const map::MapView& view) {
   picture.groups.push_back({"paper", {paper}});
   picture.groups.push_back(drawHeader(plan));
   for (const auto draw :
-       {drawGrids, drawPredictedAreas, drawTrajectory, drawEdges, drawEntities, drawNodes, drawLabels}) {
+       {drawGrids, drawPredictedAreas, drawTrajectory, drawTrails, drawEdges, drawEntities, drawNodes, drawLabels}) {
     picture.groups.push_back(draw(plan));
   }
   picture.groups.push_back(std::move(legend));

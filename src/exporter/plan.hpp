@@ -54,6 +54,7 @@ struct PlanContents {
 Group drawGrids(const PlanContents& plan);
 Group drawPredictedAreas(const PlanContents& plan);
 Group drawTrajectory(const PlanContents& plan);
+Group drawTrails(const PlanContents& plan);
 Group drawEntities(const PlanContents& plan);
 Group drawEdges(const PlanContents& plan);
 Group drawNodes(const PlanContents& plan);

@@ -119,4 +119,15 @@ Group drawTrajectory(const PlanContents& plan) {
   return group;
 }
 
+Group drawTrails(const PlanContents& plan) {
+  Group group{"trails"};
+  for (const auto& trail : trailsOf(plan.view)) {
+    Line line{.style = stroked(withAlpha(kHumanColor, 0.6), 1.2, {0.5, 2.5})};
+    const auto& panel = *plan.getNode(trail.submap).panel;
+    for (const auto& point : trail.points_in_map) line.points.push_back(panel.toPage(point));
+    group.shapes.emplace_back(std::move(line));
+  }
+  return group;
+}
+
 }  // namespace prodomos::exporter

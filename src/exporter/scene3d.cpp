@@ -142,6 +142,22 @@ CSetOfObjects::Ptr trajectoryObjects(const map::MapView& view, const Pen& pen) {
   return objects;
 }
 
+CSetOfObjects::Ptr trailObjects(const map::MapView& view, const Pen& pen) {
+  auto objects = group("trails");
+  for (const auto& trail : trailsOf(view)) {
+    map::DrawnLine line{{}, kHumanColor, ""};
+    for (const auto& point : trail.points_in_map) {
+      line.points_in_submap.emplace_back(point + Vector3d(0.0, 0.0, kTrajectoryHeight));
+    }
+    map::Drawing drawing;
+    drawing.lines.push_back(std::move(line));
+    auto drawn = toObjects(drawing, pen);
+    drawn->setName(toString(trail.track));
+    objects->insert(drawn);
+  }
+  return objects;
+}
+
 map::Rgba edgeColor(map::EdgeKind kind) {
   switch (kind) {
     case map::EdgeKind::kTravelled:
@@ -207,6 +223,7 @@ Scene makeScene(const map::MapView& view, const Pen& pen) {
   scene.objects->insert(predictionObjects(view, pen));
   scene.objects->insert(entityObjects(view, pen));
   scene.objects->insert(trajectoryObjects(view, pen));
+  scene.objects->insert(trailObjects(view, pen));
   for (const auto id : view.graph().nodes()) scene.extent_in_map.extend(lifted(view.graph().getNode(id)));
   if (scene.extent_in_map.isEmpty()) scene.extent_in_map.extend(Vector3d::Zero());
   const double radius = std::max(kNodeRadius, kNodeShare * scene.extent_in_map.diagonal().norm());

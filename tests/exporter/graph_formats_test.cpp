@@ -121,7 +121,21 @@ TEST(Geojson, HoldsEachKindOfThingInItsGeometry) {
                                                 {"entity Point", 5},
                                                 {"node Point", 6},
                                                 {"predicted_area Polygon", 2},
-                                                {"trajectory LineString", 1}}));
+                                                {"trajectory LineString", 1},
+                                                {"trail LineString", 1}}));
+}
+
+TEST(Geojson, DrawsTheWayOfSomebodyWhoWasFollowedInTheMapFrame) {
+  const auto map = json::parse(test::write("geojson", sampleView()));
+  for (const auto& feature : map["features"]) {
+    if (feature["properties"]["feature"] != "trail") continue;
+    const auto& way = feature["geometry"]["coordinates"];
+    ASSERT_EQ(way.size(), 3U);
+    EXPECT_NEAR(way[0][0].get<double>(), 5.4, 1e-6);
+    EXPECT_NEAR(way[2][1].get<double>(), 3.4, 1e-6);
+    return;
+  }
+  FAIL() << "no trail";
 }
 
 TEST(Geojson, ClosesThePolygonsOfPredictedAreasInTheMapFrame) {

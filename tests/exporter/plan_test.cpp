@@ -92,6 +92,7 @@ TEST(Svg, IsWellFormedAndHasRealText) {
   const auto svg = test::write("svg", sample.view());
   EXPECT_THAT(svg, HasSubstr("sample &lt;&amp;&gt; &quot;map&quot;.rawlog</text>"));
   EXPECT_THAT(svg, HasSubstr("<g id=\"trajectory\">"));
+  EXPECT_THAT(svg, HasSubstr("<g id=\"trails\">"));
   if (!test::runPython("", "").well) GTEST_SKIP() << "needs python3";
   const auto ran = test::runPython(
       "import sys, xml.dom.minidom\n"

@@ -67,6 +67,7 @@ class SampleMap {
     addEntities(change);
     addPrediction(change);
     addTrajectory(change);
+    addTracks(change);
     addLayers(change);
     return change;
   }
@@ -183,6 +184,23 @@ class SampleMap {
         second += 1.0;
       }
     }
+  }
+
+  /// The person of the office came in through its door.
+  static void addTracks(map::MapChange& change) {
+    map::Track track{.id = {1}, .session = {1}, .className = "human"};
+    const auto& office = change.nodes.at(2);
+    double second = 1.0;
+    for (const auto& position : {Eigen::Vector2d(5.4, 1.9), {5.3, 2.6}, {5.0, 3.4}}) {
+      const auto T_map_person =
+          geometry::toPose3({position.x(), position.y(), 1.6}, office.T_map_submap.translation().z());
+      track.states.push_back({.time = office.begin + base::fromSeconds(second),
+                              .submap = office.id,
+                              .T_submap_thing = office.T_map_submap.inverse() * T_map_person,
+                              .velocity_in_submap = {}});
+      second += 1.0;
+    }
+    change.tracks.push_back(track);
   }
 
   void addLayers(map::MapChange& change) {

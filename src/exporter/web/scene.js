@@ -74,6 +74,7 @@ function paint(ctx, scale, px) {
   ctx.lineJoin = ctx.lineCap = 'round';
   paintLayers(ctx, scale, px);
   paintTrajectories(ctx, px);
+  paintTrails(ctx, px);
   paintSelectedArea(ctx, px);
   if (state.on.predictions) for (const prediction of data.predictions.filter(onFloor)) paintPrediction(ctx, px, prediction);
   if (state.on.graph) paintEdges(ctx, px);
@@ -111,6 +112,13 @@ function paintTrajectories(ctx, px) {
     if (state.on.travelled) line(ctx, px, piece.travelled, colors.travelled, 1.5, [2, 4]);
     if (state.on.refined) line(ctx, px, piece.refined, colors.refined, 1.75);
   }
+}
+
+function paintTrails(ctx, px) {
+  if (!state.on.entities) return;
+  ctx.globalAlpha = 0.7;
+  for (const trail of data.trails.filter(onFloor)) line(ctx, px, trail.points, colors.human, 2, [1, 4]);
+  ctx.globalAlpha = 1;
 }
 
 // What the selected sub-map saw, framed.
