@@ -45,15 +45,15 @@ float misfit(const Judges& judges, const StepLattice& lattice) {
   const auto depth = static_cast<float>(lattice.depth);
   const auto rise = static_cast<float>(lattice.rise);
   const auto amplitude = static_cast<float>(lattice.amplitude());
-  const auto riser_x = static_cast<float>(lattice.riser_x);
-  const auto tread_z = static_cast<float>(lattice.tread_z);
+  const auto firstRiser = static_cast<float>(lattice.firstRiser);
+  const auto firstTread = static_cast<float>(lattice.firstTread);
   float sum = 0.0F;
   float weights = 0.0F;
   for (std::size_t i = 0; i < judges.x.size(); ++i) {
-    const float x = (judges.x[i] - riser_x) / depth;
+    const float x = (judges.x[i] - firstRiser) / depth;
     const auto step = static_cast<float>(static_cast<int>(x + 1000.0F) - 1000);  // floor
     const float along = (x - step) * depth;
-    const float above = judges.z[i] - tread_z - step * rise;
+    const float above = judges.z[i] - firstTread - step * rise;
     // Above its tread a point is nearest to the tread or to the riser behind it, below to the riser before it.
     const float before = std::max(along, -above - rise);
     const float behind = std::max(depth - along, above - rise);
@@ -75,9 +75,9 @@ FoundLattice search(std::span<const FlightPoint> points, double slope) {
         const double rise = slope * steeper * depth;
         if (rise < kLeastRise || rise > kMostRise) continue;
         for (int phase = 0; phase < kPhases; ++phase) {
-          const double riser_x = depth * phase / kPhases;
+          const double firstRiser = depth * phase / kPhases;
           for (const double off : {-0.2, 0.0, 0.2}) {
-            const StepLattice lattice{riser_x, slope * riser_x + (0.5 + off) * rise, depth, rise};
+            const StepLattice lattice{firstRiser, slope * firstRiser + (0.5 + off) * rise, depth, rise};
             const float found = misfit(judges, lattice);
             if (found >= least) continue;
             least = found;
@@ -100,7 +100,8 @@ class Fronts {
     const int column = static_cast<int>(std::floor(point.y() / kColumn)) + kColumns / 2;
     const int row = step + kSteps / 2;
     if (column < 0 || column >= kColumns || row < 0 || row >= kSteps) return;
-    Front& front = fronts_[static_cast<std::size_t>(row * kColumns + column)];
+    const int index = row * kColumns + column;
+    Front& front = fronts_[static_cast<std::size_t>(index)];
     front.x = std::min(front.x, point.x());
     ++front.points;
   }
@@ -110,7 +111,8 @@ class Fronts {
     for (int i = 0; i < kSteps * kColumns; ++i) {
       const Front& front = fronts_[static_cast<std::size_t>(i)];
       if (front.points < kLeast) continue;
-      use(i / kColumns - kSteps / 2, front.x, (i % kColumns - kColumns / 2 + 0.5) * kColumn);
+      const int column = i % kColumns - kColumns / 2;
+      use(i / kColumns - kSteps / 2, front.x, (column + 0.5) * kColumn);
     }
   }
 
@@ -127,14 +129,14 @@ class Fronts {
   std::vector<Front> fronts_;
 };
 
-/// Least squares of risers (x = riser_x + k depth + skew y) and treads (z = tread_z + k rise), weakly held where they
-/// are. Returns the skew: the tangent of the turn that is left.
+/// Least squares of risers (x = firstRiser + k depth + skew y) and treads (z = firstTread + k rise), weakly held where
+/// they are. Returns the skew: the tangent of the turn that is left.
 double refine(StepLattice& lattice, std::span<const FlightPoint> points) {
   const double trust = 1.0 / (kTrust * kTrust);
   Eigen::Matrix3d riserSquares = Eigen::Vector3d(trust, trust, 10.0).asDiagonal();  // the turn within some 20 degrees
-  Eigen::Vector3d riserProducts(trust * lattice.riser_x, trust * lattice.depth, 0.0);
+  Eigen::Vector3d riserProducts(trust * lattice.firstRiser, trust * lattice.depth, 0.0);
   Eigen::Matrix2d treadSquares = trust * Eigen::Matrix2d::Identity();
-  Eigen::Vector2d treadProducts = trust * Eigen::Vector2d(lattice.tread_z, lattice.rise);
+  Eigen::Vector2d treadProducts = trust * Eigen::Vector2d(lattice.firstTread, lattice.rise);
   const auto addRiser = [&](int step, double x, double y, double weight) {
     const Eigen::Vector3d row(1.0, step, y);
     riserSquares.noalias() += weight * row * row.transpose();
@@ -142,7 +144,7 @@ double refine(StepLattice& lattice, std::span<const FlightPoint> points) {
   };
   Fronts fronts;
   for (const FlightPoint& p : points) {
-    const int level = static_cast<int>(std::lround((p.point.z() - lattice.tread_z) / lattice.rise));
+    const int level = static_cast<int>(std::lround((p.point.z() - lattice.firstTread) / lattice.rise));
     if (std::abs(p.point.z() - lattice.treadAt(level)) < 0.01 + p.sigma) fronts.add(level, p.point);
     const StepPlace place = lattice.placeOf(p.point.x(), p.point.z());
     if (place.distance > 0.02 + 2.0 * p.sigma) continue;
@@ -170,7 +172,8 @@ double roughnessOf(std::span<const FlightPoint> points, const StepLattice& latti
   double fromSteps = 0.0;
   double fromSlope = 0.0;
   for (const FlightPoint& p : points) {
-    const double middle = lattice.tread_z + lattice.slope() * (p.point.x() - lattice.riser_x) - 0.5 * lattice.rise;
+    const double middle =
+        lattice.firstTread + lattice.slope() * (p.point.x() - lattice.firstRiser) - 0.5 * lattice.rise;
     const double weight = 1.0 / (0.01 + p.sigma);
     fromSlope += weight * std::min(std::abs(p.point.z() - middle) * across, 0.5 * amplitude);
     fromSteps += weight * std::min(lattice.placeOf(p.point.x(), p.point.z()).distance, 0.5 * amplitude);
@@ -181,7 +184,7 @@ double roughnessOf(std::span<const FlightPoint> points, const StepLattice& latti
 }  // namespace
 
 StepPlace StepLattice::placeOf(double x, double z) const {
-  const int step = static_cast<int>(std::floor((x - riser_x) / depth));
+  const int step = static_cast<int>(std::floor((x - firstRiser) / depth));
   const double along = x - riserAt(step);
   const double above = z - treadAt(step);
   const auto gap = [](double value, double least, double most) { return std::max({least - value, value - most, 0.0}); };

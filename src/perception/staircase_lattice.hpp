@@ -33,13 +33,13 @@ struct StepPlace {
 
 /// The profile of a straight flight of equal steps, endless: tread k begins at the upper edge of riser k.
 struct StepLattice {
-  double riser_x = 0.0;  ///< of riser 0
-  double tread_z = 0.0;  ///< of tread 0
-  double depth = 0.0;    ///< of a tread, metres
-  double rise = 0.0;     ///< of a riser, metres
+  double firstRiser = 0.0;  ///< x of riser 0
+  double firstTread = 0.0;  ///< z of tread 0
+  double depth = 0.0;       ///< of a tread, metres
+  double rise = 0.0;        ///< of a riser, metres
 
-  double riserAt(int step) const { return riser_x + step * depth; }
-  double treadAt(int step) const { return tread_z + step * rise; }
+  double riserAt(int step) const { return firstRiser + step * depth; }
+  double treadAt(int step) const { return firstTread + step * rise; }
   double slope() const { return rise / depth; }
   /// Metres by which a profile deviates from its middle line, both sides together.
   double amplitude() const { return rise * depth / std::hypot(rise, depth); }

@@ -28,7 +28,9 @@ class Flight {
 
   void tellFoot(StaircaseSighting& sighting) const;
   void tellNewFloor(StaircaseSighting& sighting) const;
-  bool meetsFloor() const { return std::abs(surfaces_.floor_z - tread_z(floorStep())) < 0.02 + 0.15 * lattice_.rise; }
+  bool meetsFloor() const {
+    return std::abs(surfaces_.floor_z - heightOfTread(floorStep())) < 0.02 + 0.15 * lattice_.rise;
+  }
 
  private:
   struct Side {
@@ -40,11 +42,13 @@ class Flight {
   bool headIsSeen() const;
   bool hasLanding() const;
   bool endsAbove() const;
-  std::optional<double> ceiling_z() const;
+  std::optional<double> ceilingHeight() const;
   /// Height in the sub-map of tread `step`.
-  double tread_z(int step) const { return T_submap_flight_.translation().z() + lattice_.treadAt(step); }
+  double heightOfTread(int step) const { return T_submap_flight_.translation().z() + lattice_.treadAt(step); }
   /// Of the tread that the floor would be.
-  int floorStep() const { return static_cast<int>(std::lround((surfaces_.floor_z - tread_z(0)) / lattice_.rise)); }
+  int floorStep() const {
+    return static_cast<int>(std::lround((surfaces_.floor_z - heightOfTread(0)) / lattice_.rise));
+  }
 
   const Surfaces& surfaces_;
   const StepLattice& lattice_;
@@ -108,12 +112,12 @@ bool Flight::headIsSeen() const {
   return hasLanding() || endsAbove();
 }
 
-std::optional<double> Flight::ceiling_z() const {
+std::optional<double> Flight::ceilingHeight() const {
   std::optional<double> found;
   for (const PlanarPatch& patch : surfaces_.patches) {
     const double z = patch.centroid_in_submap.z();
     if (patch.tilt() > 0.15 || patch.plane_in_submap.normal.z() > 0.0 || patch.area < 0.3) continue;
-    if (z < surfaces_.floor_z + 2.0 || z < tread_z(steps_.back().index) || (found && *found < z)) continue;
+    if (z < surfaces_.floor_z + 2.0 || z < heightOfTread(steps_.back().index) || (found && *found < z)) continue;
     found = z;
   }
   return found;
@@ -138,7 +142,7 @@ void Flight::tellFoot(StaircaseSighting& sighting) const {
   sighting.T_submap_stairs = T_submap_flight_;
   sighting.T_submap_stairs.translation() = T_submap_flight_ * foot;
   for (const SeenStep& step : steps_) {
-    sighting.steps.push_back({.z = tread_z(step.index),
+    sighting.steps.push_back({.z = heightOfTread(step.index),
                               .along = lattice_.depth * (step.index - first),
                               .depth = lattice_.depth,
                               .width = step.most - step.least});
@@ -160,21 +164,21 @@ void Flight::tellNewFloor(StaircaseSighting& sighting) const {
   const int lowest = steps_.front().index;
   const int highest = steps_.back().index;
   if (sighting.descends) {
-    sighting.newFloor_z = tread_z(lowest - 1);
+    sighting.newFloor_z = heightOfTread(lowest - 1);
     sighting.newFloorSigma = 1.5;
     return;
   }
   sighting.headIsSeen = headIsSeen();
-  sighting.newFloor_z = tread_z(highest);
+  sighting.newFloor_z = heightOfTread(highest);
   sighting.newFloorSigma = 0.03;
   if (sighting.headIsSeen) return;
-  if (const auto ceiling = ceiling_z()) {
-    const double steps = std::round((*ceiling + kSlab - tread_z(0)) / lattice_.rise);
-    sighting.newFloor_z = tread_z(static_cast<int>(steps));
+  if (const auto ceiling = ceilingHeight()) {
+    const double steps = std::round((*ceiling + kSlab - heightOfTread(0)) / lattice_.rise);
+    sighting.newFloor_z = heightOfTread(static_cast<int>(steps));
     // The more of it is out of sight, the likelier there is a landing in between.
-    sighting.newFloorSigma = 0.15 + 0.35 * std::max(sighting.newFloor_z - tread_z(highest), 0.0);
+    sighting.newFloorSigma = 0.15 + 0.35 * std::max(sighting.newFloor_z - heightOfTread(highest), 0.0);
   } else {
-    sighting.newFloor_z = tread_z(highest + 1);
+    sighting.newFloor_z = heightOfTread(highest + 1);
     sighting.newFloorSigma = 1.0;
   }
 }

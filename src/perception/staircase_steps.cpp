@@ -52,7 +52,8 @@ std::vector<SeenStep> stepsOf(const std::vector<PlacedCell>& cells) {
   std::vector<SeenStep> all(2 * kMostStep + 1);
   std::vector<std::vector<double>> across(all.size());
   for (const PlacedCell& c : cells) {
-    const auto i = static_cast<std::size_t>(c.place.step + kMostStep);
+    const int index = c.place.step + kMostStep;
+    const auto i = static_cast<std::size_t>(index);
     all[i].index = c.place.step;
     all[i].sigma += c.sigma;
     ++(c.place.part == StepPart::kRiser ? all[i].riserCells : all[i].treadCells);
@@ -104,7 +105,8 @@ Across widestRow(const std::vector<PlacedCell>& cells, const ProfileCheck& check
   int first = 0;
   int last = kNever;
   for (int bin = -kBins; bin < kBins; ++bin) {
-    if (!hasCells[static_cast<std::size_t>(bin + kBins)]) continue;
+    const int column = bin + kBins;
+    if (!hasCells[static_cast<std::size_t>(column)]) continue;
     ProfileCheck::Count count;
     for (int step = lowest; step <= highest; ++step) {
       count += countOf(check, step, {bin * kBin, (bin + 1) * kBin});
