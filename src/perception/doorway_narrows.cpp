@@ -76,10 +76,11 @@ class NarrowSearch {
   bool isThin(const Jamb& jamb) const { return jamb.rows() <= cells(config_.mostThickness); }
   Jamb jambAt(const Narrow& narrow, double face, int inward) const;
   Beside besideOf(const Jamb& jamb, int row, int onward) const;
-  double wallAt(const Jamb& jamb) const;
-  int lineFrom(int u, int v, int du, int dv) const;
-  bool isOneWall(const JambPair& jambs, double width) const;
-  bool isWallAndLeaf(const JambPair& jambs, double width) const;
+  int neededWall(const Narrow& narrow) const;
+  double wallAt(const Jamb& jamb, int most) const;
+  int lineFrom(int u, int v, int du, int dv, int most) const;
+  bool isOneWall(const JambPair& jambs, const Narrow& narrow) const;
+  bool isWallAndLeaf(const JambPair& jambs, const Narrow& narrow) const;
   double shareSeenThrough(const Narrow& narrow) const;
   double spaceFrom(const Narrow& narrow, int row, int onward) const;
   bool canBeGoneAround(const Narrow& narrow) const;
@@ -128,7 +129,7 @@ Jamb NarrowSearch::jambAt(const Narrow& narrow, double face, int inward) const {
   while (jamb.rows() <= most && isJamb(jamb.first - 1)) --jamb.first;
   while (jamb.rows() <= most && isJamb(jamb.last + 1)) ++jamb.last;
   jamb.beside = {besideOf(jamb, jamb.first, -1), besideOf(jamb, jamb.last, 1)};
-  jamb.wall = wallAt(jamb);
+  jamb.wall = wallAt(jamb, neededWall(narrow));
   return jamb;
 }
 
@@ -149,22 +150,29 @@ Beside NarrowSearch::besideOf(const Jamb& jamb, int row, int onward) const {
   return isOpen ? Beside::kOpen : Beside::kUnknown;
 }
 
+/// Cells of wall that must be beside a jamb: across a wide opening, in rooms full of things, ends of something short
+/// face each other by chance.
+int NarrowSearch::neededWall(const Narrow& narrow) const {
+  constexpr double kShare = 0.4;
+  return std::max(cells(config_.leastWall), static_cast<int>(kShare * (narrow.right - narrow.left)));
+}
+
 /// Along the opening's wall, or across it where the jamb stands out from another wall.
-double NarrowSearch::wallAt(const Jamb& jamb) const {
+double NarrowSearch::wallAt(const Jamb& jamb, int most) const {
   const int reach = cells(0.25);
   int longest = 0;
-  for (int v = jamb.first - 1; v <= jamb.last; ++v) longest = std::max(longest, lineFrom(jamb.face, v, jamb.inward, 0));
+  for (int v = jamb.first - 1; v <= jamb.last; ++v)
+    longest = std::max(longest, lineFrom(jamb.face, v, jamb.inward, 0, most));
   for (int i = 0; i <= reach; ++i) {
     const int u = jamb.face + i * jamb.inward;
-    longest = std::max({longest, lineFrom(u, jamb.first - 1, 0, -1), lineFrom(u, jamb.last + 1, 0, 1)});
+    longest = std::max({longest, lineFrom(u, jamb.first - 1, 0, -1, most), lineFrom(u, jamb.last + 1, 0, 1, most)});
   }
   return longest * raster_.step();
 }
 
 /// Cells of wall in a line two cells wide, which walls of other directions soon leave; up to the length that is needed.
-int NarrowSearch::lineFrom(int u, int v, int du, int dv) const {
+int NarrowSearch::lineFrom(int u, int v, int du, int dv, int most) const {
   constexpr int kMissing = 2;
-  const int most = cells(config_.leastWall);
   int length = 0;
   for (int i = 0; i < most && i - length <= kMissing; ++i) {
     const int x = u + i * du;
@@ -176,16 +184,19 @@ int NarrowSearch::lineFrom(int u, int v, int du, int dv) const {
 
 /// Two ends of one wall: as thick as each other and in one line; across a room the line may be a little askew. One of
 /// them may be a pillar where all else speaks for a wall.
-bool NarrowSearch::isOneWall(const JambPair& jambs, double width) const {
+bool NarrowSearch::isOneWall(const JambPair& jambs, const Narrow& narrow) const {
   constexpr double kAskew = 0.04;
   constexpr int kLeastRows = 3;
   constexpr double kPillar = 0.2;  // metres
+  constexpr double kWide = 1.6;    // metres; all corners must be seen
   if (!isThin(jambs.left) || !isThin(jambs.right)) return false;
   if (jambs.count(Beside::kOpen) < 3 || jambs.count(Beside::kBlocked) > 0) return false;
   if (jambs.thinner().rows() < kLeastRows || jambs.rowsMore() > 2) return false;
-  if (std::abs(jambs.shift()) > 1.0 + kAskew * width) return false;
+  if (std::abs(jambs.shift()) > 1.0 + kAskew * (narrow.right - narrow.left)) return false;
+  const bool isWide = narrow.right - narrow.left > cells(kWide);
+  if (isWide && jambs.count(Beside::kOpen) < 4) return false;
   const auto [lessWall, moreWall] = std::minmax(jambs.left.wall, jambs.right.wall);
-  const double needed = cells(config_.leastWall) * raster_.step();
+  const double needed = neededWall(narrow) * raster_.step();
   if (lessWall >= needed) return true;
   const bool isAlike = std::abs(jambs.left.first - jambs.right.first) <= 1 &&
                        std::abs(jambs.left.last - jambs.right.last) <= 1 && jambs.count(Beside::kOpen) == 4;
@@ -193,14 +204,14 @@ bool NarrowSearch::isOneWall(const JambPair& jambs, double width) const {
 }
 
 /// The end of a wall, and across the gap something longer: the leaf that stands open there, or a perpendicular wall.
-bool NarrowSearch::isWallAndLeaf(const JambPair& jambs, double width) const {
+bool NarrowSearch::isWallAndLeaf(const JambPair& jambs, const Narrow& narrow) const {
   constexpr double kMostLeaf = 1.3;  // metres
   constexpr int kLeastRows = 3;
   const Jamb& wall = jambs.thinner();
-  const double needed = cells(config_.leastWall) * raster_.step();
-  return width <= cells(kMostLeaf) && isThin(wall) && jambs.rowsMore() > 2 && wall.rows() >= kLeastRows &&
-         wall.count(Beside::kOpen) == 2 && jambs.count(Beside::kOpen) >= 3 && jambs.left.wall >= needed &&
-         jambs.right.wall >= needed;
+  const double needed = neededWall(narrow) * raster_.step();
+  return narrow.right - narrow.left <= cells(kMostLeaf) && isThin(wall) && jambs.rowsMore() > 2 &&
+         wall.rows() >= kLeastRows && wall.count(Beside::kOpen) == 2 && jambs.count(Beside::kOpen) >= 3 &&
+         jambs.left.wall >= needed && jambs.right.wall >= needed;
 }
 
 /// Of the gap's columns those that are free across the wall and a hand further on both sides.
@@ -278,8 +289,8 @@ std::optional<Opening> NarrowSearch::judge(const Narrow& narrow) const {
   if (seen < kLeastSeen) return std::nullopt;
   const JambPair jambs{jambAt(narrow, narrow.left, -1), jambAt(narrow, narrow.right, 1)};
   const double width = narrow.right - narrow.left;
-  const bool isPlain = isOneWall(jambs, width);
-  if (!isPlain && !isWallAndLeaf(jambs, width)) return std::nullopt;
+  const bool isPlain = isOneWall(jambs, narrow);
+  if (!isPlain && !isWallAndLeaf(jambs, narrow)) return std::nullopt;
   const int first = isPlain ? std::min(jambs.left.first, jambs.right.first) : jambs.thinner().first;
   const int last = isPlain ? std::max(jambs.left.last, jambs.right.last) : jambs.thinner().last;
   if (spaceFrom(narrow, first, -1) < cells(config_.leastSpace) * raster_.step() ||
