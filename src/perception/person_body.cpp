@@ -134,8 +134,8 @@ bool isFlat(const UprightView& view, const PicturedPerson& person, const Body& b
   for (const BodySample& sample : body.torso) points.push_back(sample.point_in_submap);
   const auto plane = geometry::fitPlane(points);
   if (!plane) return false;
-  int beside = 0;
-  int inPlane = 0;
+  std::size_t beside = 0;
+  std::size_t inPlane = 0;
   for (const double x : {-0.35, 1.05}) {
     for (const auto& [pixel, depth] : depthsIn(view, person, {x, 0.1, 0.3, 0.6})) {
       ++beside;
@@ -143,7 +143,8 @@ bool isFlat(const UprightView& view, const PicturedPerson& person, const Body& b
       if (std::abs(plane->signedDistance(view.pointAt(pixel, depth))) < tolerance) ++inPlane;
     }
   }
-  return beside > 20 && inPlane > beside / 2;
+  // Where nothing is known beside it, what is may be an arm.
+  return beside > body.torso.size() / 3 && inPlane > beside / 2;
 }
 
 }  // namespace prodomos::perception

@@ -36,12 +36,16 @@ void PeopleDrawing::add(const PicturedPerson& person, const std::optional<Person
   cv::rectangle(picture_, person.box.box, color, 2);
   cv::putText(picture_, cv::format("%.2f", person.box.score), person.box.box.tl() + cv::Point2d(3.0, 15.0),
               cv::FONT_HERSHEY_PLAIN, 1.2, color, 2);
-  if (person.joints) drawSkeleton(*person.joints);
+  if (person.joints) drawSkeleton(*person.joints, sighting);
   if (sighting) drawHeading(*sighting);
 }
 
-void PeopleDrawing::drawSkeleton(const ImageJoints& joints) {
-  const auto isSeen = [&](int i) { return joints[static_cast<std::size_t>(i)].score >= kLeastJointScore; };
+/// Joints that lie on something else are not drawn: the network guesses where hidden ones are.
+void PeopleDrawing::drawSkeleton(const ImageJoints& joints, const std::optional<PersonSighting>& sighting) {
+  const auto isSeen = [&](int i) {
+    const auto joint = static_cast<std::size_t>(i);
+    return joints[joint].score >= kLeastJointScore && (!sighting || sighting->joints_in_submap[joint]);
+  };
   const auto at = [&](int i) { return joints[static_cast<std::size_t>(i)].pixel; };
   for (const auto& [from, to] : kBones) {
     if (isSeen(from) && isSeen(to)) cv::line(picture_, at(from), at(to), kBone, 2);

@@ -19,7 +19,7 @@ class PeopleDrawing {
   void finish();
 
  private:
-  void drawSkeleton(const ImageJoints& joints);
+  void drawSkeleton(const ImageJoints& joints, const std::optional<PersonSighting>& sighting);
   void drawHeading(const PersonSighting& sighting);
 
   const UprightView& view_;

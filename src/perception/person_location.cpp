@@ -55,24 +55,24 @@ void setHeading(const Facing& facing, const Body& body, PersonSighting& sighting
   sighting.facing = std::abs(facing.toCamera);
 }
 
+/// In sixths of a circle, of a colour that has one.
+double hueOf(const cv::Vec3b& bgr, int most, int chroma) {
+  const auto share = [&](int a, int b) { return static_cast<double>(bgr[a] - bgr[b]) / chroma; };
+  if (most == bgr[2]) return std::fmod(6.0 + share(1, 0), 6.0);
+  if (most == bgr[1]) return 2.0 + share(0, 2);
+  return 4.0 + share(2, 1);
+}
+
 /// Shares of 16 hues, and of 8 greys for pixels without any.
 Appearance appearanceOf(const UprightView& view, const Body& body) {
   Appearance shares{};
   for (const BodySample& sample : body.torso) {
     const auto& bgr = view.picture().at<cv::Vec3b>(sample.pixel);
-    const auto [least, most] = std::minmax({bgr[0], bgr[1], bgr[2]});
-    const int chroma = most - least;
-    std::size_t bin = 16 + static_cast<std::size_t>(most) / 32;
-    if (chroma > 40 || (most > 40 && 4 * chroma > most)) {
-      double hue = 0.0;  // in sixths of a circle
-      if (most == bgr[2])
-        hue = static_cast<double>(bgr[1] - bgr[0]) / chroma;
-      else if (most == bgr[1])
-        hue = 2.0 + static_cast<double>(bgr[0] - bgr[2]) / chroma;
-      else
-        hue = 4.0 + static_cast<double>(bgr[2] - bgr[1]) / chroma;
-      bin = static_cast<std::size_t>(std::fmod(hue + 6.0, 6.0) / 6.0 * 16.0) % 16;
-    }
+    const int most = std::max({bgr[0], bgr[1], bgr[2]});
+    const int chroma = most - std::min({bgr[0], bgr[1], bgr[2]});
+    const bool isGrey = chroma <= 40 && (most <= 40 || 4 * chroma <= most);
+    const auto bin = isGrey ? 16 + static_cast<std::size_t>(most) / 32
+                            : static_cast<std::size_t>(hueOf(bgr, most, chroma) / 6.0 * 16.0) % 16;
     shares[bin] += 1.0F / static_cast<float>(body.torso.size());
   }
   return shares;

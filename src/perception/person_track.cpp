@@ -255,17 +255,17 @@ void PersonTrack::lookAround(const map::OccupancyGrid& grid) {
 }
 
 void PersonTrack::enter(const geometry::Pose3& T_submap_before) {
-  const geometry::Pose2 T = geometry::toPose2(T_submap_before);
-  const Eigen::Rotation2Dd turn(T.theta);
+  const geometry::Pose2 moved = geometry::toPose2(T_submap_before);
+  const Eigen::Rotation2Dd turn(moved.theta);
   Matrix4d turns = Matrix4d::Zero();
   turns.topLeftCorner<2, 2>() = turn.toRotationMatrix();
   turns.bottomRightCorner<2, 2>() = turn.toRotationMatrix();
   state_ = turns * state_;
-  state_.head<2>() += Vector2d(T.x, T.y);
+  state_.head<2>() += Vector2d(moved.x, moved.y);
   covariance_ = turns * covariance_ * turns.transpose();
-  start_ = T * start_;
+  start_ = moved * start_;
   floor_z_ += T_submap_before.translation().z();
-  heading_ = geometry::normalizeAngle(heading_ + T.theta);
+  heading_ = geometry::normalizeAngle(heading_ + moved.theta);
 }
 
 void PersonTrack::takeOver(PersonTrack&& other) {
