@@ -89,16 +89,16 @@ class Pen {
 };
 
 void draw(Pen& pen, const StaircaseSighting& flight) {
-  const Pose3& T = flight.T_submap_stairs;
+  const Pose3& T_submap_stairs = flight.T_submap_stairs;
   const auto at = [&](double along, double across, double z) {
-    Eigen::Vector3d point = T * Eigen::Vector3d(along, across, 0.0);
+    Eigen::Vector3d point = T_submap_stairs * Eigen::Vector3d(along, across, 0.0);
     point.z() = z;
     return point;
   };
   const double half = 0.5 * flight.width;
   for (const Step& step : flight.steps)
     pen.line(at(step.along, half, step.z), at(step.along, -half, step.z), kSteps, 1);
-  const double foot_z = T.translation().z();
+  const double foot_z = T_submap_stairs.translation().z();
   pen.line(at(0.0, half, foot_z), at(0.0, -half, foot_z), kFoot, flight.footIsSeen ? 3 : 1);
   const Step& top = flight.steps.back();
   pen.line(at(0.0, 0.0, foot_z), at(top.along, 0.0, top.z), kUphill, 2);

@@ -154,9 +154,9 @@ void Flight::tellFoot(StaircaseSighting& sighting) const {
   const double across = sighting.widthIsWhole ? 0.03 : left.seen || right.seen ? 0.3 : 0.5;
   const double turn =
       0.01 + (0.01 + sigma) / std::max(sighting.width, kLeastWidth) / std::sqrt(static_cast<double>(steps_.size()));
-  const Eigen::Matrix3d R = T_submap_flight_.linear();
+  const Eigen::Matrix3d axes = T_submap_flight_.linear();
   const Eigen::Vector3d variances = Eigen::Vector3d(along, across, 0.01 + 0.3 * sigma).cwiseAbs2();
-  sighting.covariance.topLeftCorner<3, 3>() = R * variances.asDiagonal() * R.transpose();
+  sighting.covariance.topLeftCorner<3, 3>() = axes * variances.asDiagonal() * axes.transpose();
   sighting.covariance(3, 3) = turn * turn;
 }
 
