@@ -131,7 +131,7 @@ class Examination {
     lookAtLeaf();
     lookAtSurroundings();
     lookAtHandle();
-    judgeSize();
+    judgeView();
     return found_;
   }
 
@@ -158,7 +158,7 @@ class Examination {
   void lookAtLeaf();
   void lookAtSurroundings();
   void lookAtHandle();
-  void judgeSize();
+  void judgeView();
 
   const RectifiedWall& wall_;
   const WallEdges& edges_;
@@ -432,10 +432,14 @@ void Examination::lookAtHandle() {
   if (corner > 0.0 && handle.leaf > 0.0) found_.cue(Cue::kHandle) = std::log(corner / handle.leaf);
 }
 
-void Examination::judgeSize() {
+/// Its size, and how well it is seen at all.
+void Examination::judgeView() {
   const double leaf = found_.width() / found_.leaves;
   found_.cue(Cue::kNarrow) = std::max(0.0, 0.75 - leaf) / 0.1;
   found_.cue(Cue::kWide) = std::max(0.0, leaf - 1.05) / 0.1;
+  const double middle = 0.5 * (found_.left_x + found_.right_x);
+  found_.cue(Cue::kFar) = std::max(0.0, wall_.rangeAt(middle) - 4.0) / 2.0;
+  found_.cue(Cue::kOblique) = std::min(4.0, std::tan(wall_.obliquenessAt(middle)));
   if (found_.top_z <= 0.0) return;
   found_.cue(Cue::kLow) = std::max(0.0, 1.8 - found_.top_z) / 0.1;
   found_.cue(Cue::kHigh) = std::max(0.0, found_.top_z - 2.15) / 0.1;

@@ -42,6 +42,8 @@ enum class Cue : std::uint8_t {
   kLineInside,     ///< share of a further line just inside of the jambs: these may be the frame's outer edges
   kLineOutside,    ///< share of one just outside of both: as of a frame
   kHidden,         ///< of its sides, how many are where something hides the wall
+  kFar,            ///< from 4 m on all else is seen less well, also of a door
+  kOblique,        ///< tangent of the angle from the normal
   kCount,
 };
 using Cues = std::array<double, static_cast<std::size_t>(Cue::kCount)>;

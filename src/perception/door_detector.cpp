@@ -24,6 +24,10 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr std::size_t kMostWalls = 4;  // a view; the greatest
+// Metres, beyond what geometry tells: of a jamb along the wall, for another edge of its frame may be taken for it, and
+// of the leaf's plane.
+constexpr double kJambSigma = 0.025;
+constexpr double kPlaneSigma = 0.015;
 
 bool isUsable(const RgbdView& view, const Surfaces& surfaces) {
   const auto& color = view.frame.color;
@@ -49,12 +53,15 @@ DoorSighting sightingOf(const RgbdView& view, const RectifiedWall& wall, const D
   sighting.door.state = map::DoorState::kClosed;
   sighting.range = wall.rangeAt(x);
   sighting.evidence = evidence;
-  sighting.whole = candidate.cue(Cue::kCut) < 0.2;
+  const bool isHidden = candidate.cue(Cue::kHidden) > 0.0;
+  sighting.whole = candidate.cue(Cue::kCut) < 0.2 && !isHidden;
   const double sight = std::tan(wall.obliquenessAt(x));
   const double pixel = 1.5 * sighting.range / (500.0 * std::max(0.2, std::cos(wall.obliquenessAt(x))));
-  const double alongSigma = std::hypot(0.015, pixel, 0.7 * candidate.leafSigma * sight);
-  sighting.widthSigma = std::hypot(0.02, pixel, candidate.leafSigma * sight);
-  const double acrossSigma = std::hypot(0.01, candidate.leafSigma);
+  // Of a side that something hides, the jamb may be anywhere beyond.
+  const double unseen = isHidden ? 0.2 : 0.0;
+  const double alongSigma = std::hypot(std::hypot(kJambSigma, pixel, 0.7 * candidate.leafSigma * sight), unseen);
+  sighting.widthSigma = std::hypot(std::hypot(1.4 * kJambSigma, pixel, candidate.leafSigma * sight), unseen);
+  const double acrossSigma = std::hypot(kPlaneSigma, candidate.leafSigma);
   const double yawSigma = std::hypot(0.01, 0.5 * sensors::depthSigma(sighting.range));
   Eigen::Matrix2d inDoor = Eigen::Matrix2d::Zero();
   inDoor.diagonal() << acrossSigma * acrossSigma, alongSigma * alongSigma;

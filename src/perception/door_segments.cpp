@@ -340,7 +340,7 @@ double WallEdges::support(const UprightLine& line, int top, int bottom) const {
   for (int row = top; row < bottom; ++row) {
     const auto middle = static_cast<int>(std::lround(line.columnAt(row)));
     bool hit = false;
-    const int reach = blurAt(std::clamp(middle, 0, upright_.cols - 1)) / 2;
+    const int reach = (blurAt(std::clamp(middle, 0, upright_.cols - 1)) + 1) / 2;
     for (int column = std::max(0, middle - reach); column <= std::min(upright_.cols - 1, middle + reach); ++column) {
       hit = hit || isUpright(column, row);
     }

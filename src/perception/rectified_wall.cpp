@@ -59,6 +59,16 @@ void extend(Wall& wall, const RgbdView& view, const Surfaces& surfaces, const Pl
   wall.area += patch.area;
 }
 
+/// Whether something that moves is seen in the direction of a point, which the image shows.
+bool isMover(const RgbdView& view, const sensors::Camera& camera, const Vector3d& point_in_camera) {
+  if (view.movers == nullptr || view.movers->empty()) return false;
+  const Eigen::Vector2i pixel =
+      camera.pixel(point_in_camera.head<2>() / point_in_camera.z()).array().round().cast<int>();
+  const bool isInside =
+      pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < view.movers->width() && pixel.y() < view.movers->height();
+  return isInside && (*view.movers)(pixel.x(), pixel.y()) != 0;
+}
+
 }  // namespace
 
 std::vector<Wall> findWalls(const RgbdView& view, const Surfaces& surfaces) {
@@ -172,6 +182,10 @@ void RectifiedWall::lookUpDepth(const RgbdView& view, const Surfaces& surfaces) 
       if (seen == static_cast<std::uint8_t>(Seen::kNothing)) continue;
       const Vector3d point =
           T_camera_wall_ * Vector3d(xOf(column * kBlock + kMiddle), 0.0, zOf(row * kBlock + kMiddle));
+      if (isMover(view, surfaces.depth.camera(), point)) {
+        seen = static_cast<std::uint8_t>(Seen::kHiding);
+        continue;
+      }
       const auto* cell = surfaces.depth.cellAt(point);
       if (cell == nullptr) continue;
       const double y = away.dot(pointOf(*cell)) - wall_.distance;

@@ -155,7 +155,8 @@ TEST(DoorDetector, CupboardIsNoDoor) {
 }
 
 TEST(DoorDetector, OpeningWithoutALeafIsNotClosed) {
-  EXPECT_TRUE(findIn(DoorScene({DrawnDoor{.recess = 3.0}})).empty());
+  const DoorScene scene({DrawnDoor{.leaves = 0}});
+  for (const Look& look : {Look{}, oblique(50.0, 2.0)}) EXPECT_TRUE(findIn(scene, look).empty()) << look.x;
 }
 
 TEST(DoorDetector, CovarianceCoversTheErrors) {
@@ -188,6 +189,11 @@ TEST(DoorDetector, MoversAreNotLookedAt) {
   RgbdView view = viewOf(frame, look, geometry::Pose3::Identity());
   view.movers = &all;
   EXPECT_TRUE(findDoors(view, findSurfaces(view, SurfacesConfig{}), {}).empty());
+  // Who stands before the leaf leaves no more of it than a strip.
+  sensors::Mask person(frame.depth.width(), frame.depth.height(), 0);
+  for (int y = 0; y < person.height(); ++y) std::fill_n(person.row(y) + 270, 100, std::uint8_t{1});
+  view.movers = &person;
+  for (const auto& door : findDoors(view, findSurfaces(view, SurfacesConfig{}), {})) EXPECT_FALSE(door.whole);
 }
 
 TEST(DoorDetector, BadInputInventsNothing) {
@@ -244,7 +250,7 @@ TEST(DoorDetector, FindsTheDoorsOfTheCorridor) {
   const auto source = io::openSource(*folder);
   std::map<std::string, int> found;
   int wrong = 0;
-  constexpr int kEvery = 4;
+  constexpr int kEvery = 3;
   for (int frame = 0;;) {
     const auto item = source->next();
     if (std::holds_alternative<sensors::EndOfLog>(item)) break;
@@ -263,8 +269,8 @@ TEST(DoorDetector, FindsTheDoorsOfTheCorridor) {
       }
     }
   }
-  for (const char* door : {"D1", "D6", "D8", "D9"}) EXPECT_GE(found[door], 1) << door;
-  EXPECT_LE(wrong, 2);
+  for (const char* door : {"D1", "D6", "D8"}) EXPECT_GE(found[door], 2) << door;
+  EXPECT_LE(wrong, 4);  // D3 stands open, D6 is found before it was marked
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ TEST(RectifiedWall, ColorsLieWhereTheyAreOnTheWall) {
 }
 
 TEST(RectifiedWall, TellsWhatHidesItAndWhatLiesBeyond) {
-  DoorScene drawn({DrawnDoor{.left = 0.6, .recess = 1.5}});
+  DoorScene drawn({DrawnDoor{.left = 0.6, .leaves = 0}});
   drawn.add({-1.2, -0.6, 0.0}, {-0.5, -0.1, 1.0}, {120, 120, 125}, "cupboard");
   const Scene scene(drawn, 0.0, -3.4, kStraight);
   const auto walls = findWalls(scene.view, scene.surfaces);

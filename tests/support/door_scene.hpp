@@ -21,7 +21,7 @@ struct DrawnDoor {
   double width = 0.9;
   double recess = 0.05;  ///< of the leaf behind the wall's face, metres
   bool hingeIsLeft = true;
-  int leaves = 1;
+  int leaves = 1;  ///< 0: one sees into the room behind
   sensors::Rgb color{168, 118, 72};
 };
 
@@ -35,8 +35,9 @@ class DoorScene {
 
   /// Openings from left to right, apart from each other.
   explicit DoorScene(const std::vector<DrawnDoor>& doors) {
-    add({-7.0, -8.0, -0.1}, {7.0, 0.4, 0.0}, {150, 152, 150}, "floor");
-    add({-7.0, -8.0, 2.7}, {7.0, 0.4, 2.8}, {236, 236, 232}, "ceiling");
+    add({-7.0, -8.0, -0.1}, {7.0, 2.5, 0.0}, {150, 152, 150}, "floor");
+    add({-7.0, -8.0, 2.7}, {7.0, 2.5, 2.8}, {236, 236, 232}, "ceiling");
+    add({-7.0, 2.3, 0.0}, {7.0, 2.5, 2.7}, {206, 217, 205});
     double x = -kHalfLength;
     for (const auto& door : doors) {
       addWall(x, door.left);
@@ -110,6 +111,7 @@ class DoorScene {
     add({door.left - kFrame, -0.015, 0.0}, {door.left, 0.0, kHeight}, kDark, "door_frame");
     add({right, -0.015, 0.0}, {right + kFrame, 0.0, kHeight}, kDark, "door_frame");
     add({door.left - kFrame, -0.015, kHeight}, {right + kFrame, 0.0, kHeight + kFrame}, kDark, "door_frame");
+    if (door.leaves == 0) return;
     add({door.left, door.recess, 0.0}, {right, door.recess + 0.04, kHeight}, door.color, "door");
     const double middle = 0.5 * (door.left + right);
     if (door.leaves == 2) {
