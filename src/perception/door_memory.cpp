@@ -20,6 +20,7 @@ constexpr double kFarthestLook = 6.0;       // metres
 constexpr double kLeastKnown = 0.6;
 constexpr double kClearlyThrough = 0.8;
 constexpr double kClearlyFilled = 0.9;
+constexpr double kFlat = 0.15;          // metres a metre: 8.5 degrees
 constexpr double kHardlyFilled = 0.5;   // where a closed leaf was found all the same, it was none
 constexpr double kGreatestSigma = 0.2;  // metres; where a door is known no better, one may look past it
 /// Where there is no wall, there is no door: as bad as so many misses.
@@ -29,6 +30,8 @@ constexpr double kClearlyLikelier = 1.0;
 
 /// Of a reading that shows an opening and no leaf, or a depth that goes through it: closed, ajar, open.
 constexpr DoorStateFilter::Likelihoods kOpening = {0.1, 0.3, 0.6};
+/// ... that shows no closed leaf.
+constexpr DoorStateFilter::Likelihoods kNotClosed = {0.03, 0.47, 0.5};
 constexpr DoorStateFilter::Likelihoods kSeenThrough = {0.02, 0.3, 0.68};
 
 void tellState(DoorLandmark& door, base::Time time, const DoorStateFilter::Likelihoods& likelihoods,
@@ -221,7 +224,11 @@ void DoorMemory::see(DoorLandmark& door, const Frames& frames, const RgbdView& v
     const bool isSeenThrough = appearance.through >= kClearlyThrough * appearance.known();
     if (isSeenThrough && !appearance.hasNoWall) tellState(door, view.time, kSeenThrough, config_);
     if (isDetected && appearance.filled < kHardlyFilled * appearance.known()) takeBackLeaf(door, frames, view);
-    if (!isDetected && appearance.filled >= kClearlyFilled) {
+    const bool isFlat = std::abs(appearance.slope) < kFlat;
+    if (!isFlat) tellState(door, view.time, kNotClosed, config_);
+    // From aside one sees the jamb, which fills an open door as well as its leaf would.
+    const bool isFrontal = appearance.obliquity < kWellSeenObliquity;
+    if (!isDetected && isFrontal && isFlat && appearance.filled >= kClearlyFilled) {
       tellState(door, view.time, DoorStateFilter::told(map::DoorState::kClosed, config_.stateTrust), config_);
     }
   }
