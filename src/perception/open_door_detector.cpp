@@ -150,12 +150,6 @@ DoorSighting sightingOf(const Told& told, const Wall& wall, const RgbdView& view
   return sighting;
 }
 
-void draw(DebugImages& debug, int number, const WallProfile& profile, const std::vector<open_doors::DrawnGap>& gaps,
-          const RgbdView& view, const Surfaces& surfaces) {
-  const auto spots = open_doors::spotsNear(view, surfaces, profile.wall(), 0.0, kDrawnReach);
-  debug.add("open_doors_" + std::to_string(number), drawProfile(profile, spots, gaps));
-}
-
 }  // namespace
 
 void describe(base::ConfigVisitor& visitor, OpenDoorDetectorConfig& config) {
@@ -186,12 +180,16 @@ std::vector<DoorSighting> findOpenDoors(const RgbdView& view, const Surfaces& su
       if (evidence) found.push_back(sightingOf(toldBy(opening, *evidence), profile.wall(), view));
       drawn.push_back({gap, opening.leftLeaf, opening.rightLeaf, opening.leafWidth(), evidence.has_value()});
     }
+    std::vector<SwungLeaf> swung;
     for (const auto& other : profiles) {
       const auto leaf = &other == &profile ? std::nullopt : open_doors::findSwungLeaf(profile, other);
-      if (leaf) found.push_back(sightingOf(toldBy(*leaf), profile.wall(), view));
+      if (!leaf) continue;
+      found.push_back(sightingOf(toldBy(*leaf), profile.wall(), view));
+      swung.push_back(*leaf);
     }
     if (debug != nullptr && debug->isWanted() && profile.count() > 0) {
-      draw(*debug, number++, profile, drawn, view, surfaces);
+      const auto spots = open_doors::spotsNear(view, surfaces, profile.wall(), 0.0, kDrawnReach);
+      debug->add("open_doors_" + std::to_string(number++), drawProfile(profile, spots, drawn, swung));
     }
   }
   return found;

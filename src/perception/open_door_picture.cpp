@@ -79,14 +79,14 @@ class Drawing {
     const double right = profile_.xOf(gap.gap.right);
     cv::rectangle(picture_, cv::Point(pixelX(left), pixels(kTop - 2.0)), cv::Point(pixelX(right), pixels(kTop)), color);
     cv::line(picture_, {pixelX(left), pixelY(0.0)}, {pixelX(right), pixelY(0.0)}, color);
-    const auto drawLeaf = [&](const std::optional<Leaf>& leaf, double x, double closing) {
-      if (!leaf) return;
-      const double endX = x + closing * gap.leafWidth * std::cos(leaf->angle);
-      const double endY = leaf->y + gap.leafWidth * std::sin(leaf->angle);
-      cv::line(picture_, {pixelX(x), pixelY(leaf->y)}, {pixelX(endX), pixelY(endY)}, {255, 80, 220}, 2);
-    };
-    drawLeaf(gap.leftLeaf, left, 1.0);
-    drawLeaf(gap.rightLeaf, right, -1.0);
+    if (gap.leftLeaf) drawLeaf({left, 1.0, gap.leafWidth}, gap.leftLeaf->y, gap.leftLeaf->angle);
+    if (gap.rightLeaf) drawLeaf({right, -1.0, gap.leafWidth}, gap.rightLeaf->y, gap.rightLeaf->angle);
+  }
+
+  void drawLeaf(const Hinge& hinge, double y, double angle) {
+    const double endX = hinge.x + hinge.closing * hinge.leafWidth * std::cos(angle);
+    const double endY = y + hinge.leafWidth * std::sin(angle);
+    cv::line(picture_, {pixelX(hinge.x), pixelY(y)}, {pixelX(endX), pixelY(endY)}, {255, 80, 220}, 2);
   }
 
   const sensors::Image<sensors::Rgb>& image() const { return image_; }
@@ -103,11 +103,12 @@ class Drawing {
 }  // namespace
 
 sensors::Image<sensors::Rgb> drawProfile(const WallProfile& profile, const std::vector<Spot>& spots,
-                                         const std::vector<DrawnGap>& gaps) {
+                                         const std::vector<DrawnGap>& gaps, const std::vector<SwungLeaf>& swung) {
   Drawing drawing(profile);
   drawing.drawWall();
   drawing.drawFromAbove(spots);
   for (const auto& gap : gaps) drawing.drawGap(gap);
+  for (const auto& leaf : swung) drawing.drawLeaf(leaf.hinge, 0.0, -leaf.angle);
   return drawing.image();
 }
 

@@ -6,6 +6,7 @@
 
 #include "perception/open_door_leaf.hpp"
 #include "perception/open_door_profile.hpp"
+#include "perception/open_door_swung.hpp"
 
 #include <optional>
 #include <vector>
@@ -22,8 +23,8 @@ struct DrawnGap {
 };
 
 /// The wall as seen straight on, by the depth behind it (grey: wall, blue to green: behind it, red: before it), below
-/// it its strips, and what is seen from above with the gaps (green: accepted, else orange) and their leaves.
+/// it its strips, and what is seen from above with the gaps (green: accepted, else orange) and the leaves.
 sensors::Image<sensors::Rgb> drawProfile(const WallProfile& profile, const std::vector<Spot>& spots,
-                                         const std::vector<DrawnGap>& gaps);
+                                         const std::vector<DrawnGap>& gaps, const std::vector<SwungLeaf>& swung);
 
 }  // namespace prodomos::perception::open_doors
