@@ -18,6 +18,7 @@ constexpr int kPhases = 10;           // in which the search tries each size
 constexpr double kNextDepth = 1.07;   // from one size to the next
 constexpr int kRefits = 6;            // least squares, each with the points assigned anew
 constexpr double kFrontSigma = 0.04;  // metres: voxels are as far apart
+constexpr float kHopeless = 0.7F;     // misfit in the slope's own direction, of what is no flight in any other
 constexpr double kTrust = 0.02;       // metres; a size that no point tells stays as the search has it
 
 /// Points in single precision, an array for each coordinate.
@@ -68,7 +69,8 @@ float misfit(const Judges& judges, const StepLattice& lattice) {
 FoundLattice search(std::span<const FlightPoint> points, double slope) {
   FoundLattice best;
   float least = std::numeric_limits<float>::infinity();
-  for (const double turn : {-0.15, 0.0, 0.15}) {
+  for (const double turn : {0.0, -0.15, 0.15}) {
+    if (least > kHopeless && turn != 0.0) break;
     const Judges judges = judgesOf(points, turn);
     for (const double steeper : {0.85, 1.0, 1.18}) {
       for (double depth = kLeastDepth; depth <= kMostDepth; depth *= kNextDepth) {
