@@ -35,7 +35,8 @@ class PersonTracker {
 
   /// Those followed long enough, as map::Human entities where they were last seen, by id.
   std::vector<map::Entity> entities() const;
-  /// Tracks with the states since the last call, and entities that changed.
+  /// Tracks with the states since the last call, and entities that changed. States are kept until then: nothing else
+  /// grows with time.
   void addTo(map::MapChange& change);
 
   void save(base::ByteWriter& out) const;
