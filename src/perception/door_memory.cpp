@@ -140,7 +140,7 @@ std::vector<std::optional<std::size_t>> DoorMemory::associate(const Frames& fram
   return landmarkOf;
 }
 
-void DoorMemory::update(const Frames& frames, std::vector<std::size_t> touched) {
+void DoorMemory::update(const Frames& frames, const std::vector<std::size_t>& touched) {
   for (const auto i : touched) {
     if (std::ranges::any_of(landmarks_[i].looks, [](const auto& look) { return look.sightings > 0; })) {
       refresh(landmarks_[i], frames, config_);

@@ -33,7 +33,7 @@ class DoorMemory {
  private:
   /// By sighting the index of its landmark, a new one where none is known; none: nothing new is learned of it.
   std::vector<std::optional<std::size_t>> associate(const Frames& frames, std::span<const DoorSighting> doors);
-  void update(const Frames& frames, std::vector<std::size_t> touched);
+  void update(const Frames& frames, const std::vector<std::size_t>& touched);
   /// Makes one of two; the place of the other stays, empty, until prune().
   bool mergeIfSame(std::size_t i, std::size_t j, const Frames& frames);
   void mergeAll(const Frames& frames);
