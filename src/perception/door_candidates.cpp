@@ -165,7 +165,7 @@ class Examination {
   DoorCandidate found_;
   int first_ = 0;
   int last_ = 0;
-  double surround_y_ = 0.0;
+  double surroundY_ = 0.0;
   double known_ = 0.0;            ///< share of the leaf whose depth is known
   double sigma_ = 0.0;            ///< of one block's offset
   double height_ = kUsualHeight;  ///< of the leaf, as far as known
@@ -230,20 +230,20 @@ void Examination::place() {
   if (beside > 0)
     found_.cue(Cue::kDepthless) = (1.0 - known_) * std::min(1.0, static_cast<double>(around.size()) / beside);
   const bool isKnown = around.size() > 8;
-  surround_y_ = isKnown ? median(around) : found_.leaf_y;
-  const double deeper = found_.leaf_y - surround_y_;
+  surroundY_ = isKnown ? median(around) : found_.leaf_y;
+  const double deeper = found_.leaf_y - surroundY_;
   const double doubt = std::hypot(found_.leafSigma, 0.008);
   if (isKnown && found_.cue(Cue::kFlat) != 0.0) {
     found_.cue(Cue::kStandsOut) = std::clamp(-deeper / (0.01 + doubt) - 0.5, 0.0, 3.0);
     found_.cue(Cue::kRecessed) = std::clamp(deeper / (0.01 + doubt) - 0.5, 0.0, 3.0);
   }
   const auto trueX = [&](double x, bool hides) {
-    return x / wall_.shrinkage(hides ? std::min(found_.leaf_y, surround_y_) - kFrameDepth : found_.leaf_y);
+    return x / wall_.shrinkage(hides ? std::min(found_.leaf_y, surroundY_) - kFrameDepth : found_.leaf_y);
   };
-  const double left_x = wall_.xOf(found_.leftLine.columnAt(wall_.rowOf(1.0)));
-  const double right_x = wall_.xOf(found_.rightLine.columnAt(wall_.rowOf(1.0)));
-  found_.left_x = trueX(left_x, left_x > 0.0);
-  found_.right_x = trueX(right_x, right_x < 0.0);
+  const double seenLeft = wall_.xOf(found_.leftLine.columnAt(wall_.rowOf(1.0)));
+  const double seenRight = wall_.xOf(found_.rightLine.columnAt(wall_.rowOf(1.0)));
+  found_.left_x = trueX(seenLeft, seenLeft > 0.0);
+  found_.right_x = trueX(seenRight, seenRight < 0.0);
 }
 
 void Examination::lookAtTop() {
@@ -330,12 +330,12 @@ bool Examination::lookAtJambs() {
 
 /// Two leaves meet in a line.
 bool Examination::hasMiddleLine(const std::vector<UprightLine>& lines) {
-  const double middle_x = 0.5 * (found_.left_x + found_.right_x) * wall_.shrinkage(found_.leaf_y);
+  const double middleX = 0.5 * (found_.left_x + found_.right_x) * wall_.shrinkage(found_.leaf_y);
   const double tolerance = 0.07 * (last_ - first_);
   const int top = leafRow(height_ - 0.1);
   const int bottom = leafRow(0.1);
   return std::ranges::any_of(lines, [&](const UprightLine& line) {
-    return std::abs(line.columnAt(wall_.rowOf(1.0)) - wall_.columnOf(middle_x)) < tolerance &&
+    return std::abs(line.columnAt(wall_.rowOf(1.0)) - wall_.columnOf(middleX)) < tolerance &&
            edges_.support(line, top, bottom) > 0.5;
   });
 }

@@ -101,7 +101,7 @@ RectifiedWall::RectifiedWall(const RgbdView& view, const Surfaces& surfaces, con
       focalLength_(surfaces.depth.camera().focalLength()) {
   chooseSpan(surfaces, reach);
   if (!(wall_.most_x - wall_.least_x > 0.3)) return;
-  least_x_ = wall_.least_x;
+  leastX_ = wall_.least_x;
   const int columns = kBlock * static_cast<int>(std::ceil((wall_.most_x - wall_.least_x) / (kPixel * kBlock)));
   const int rows = kBlock * static_cast<int>(std::ceil((kTop - kBottom) / (kPixel * kBlock)));
   const auto& color = view.frame.color;

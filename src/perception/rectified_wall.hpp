@@ -51,9 +51,9 @@ class RectifiedWall {
   int height() const { return color_.rows; }
   bool empty() const { return color_.empty(); }
 
-  double xOf(double column) const { return least_x_ + (column + 0.5) * kPixel; }
+  double xOf(double column) const { return leastX_ + (column + 0.5) * kPixel; }
   double zOf(double row) const { return kTop - (row + 0.5) * kPixel; }
-  double columnOf(double x) const { return (x - least_x_) / kPixel - 0.5; }
+  double columnOf(double x) const { return (x - leastX_) / kPixel - 0.5; }
   double rowOf(double z) const { return (kTop - z) / kPixel - 0.5; }
 
   const cv::Mat& color() const { return color_; }  ///< CV_8UC3
@@ -79,7 +79,7 @@ class RectifiedWall {
   Wall wall_;
   geometry::Pose3 T_camera_wall_ = geometry::Pose3::Identity();
   double focalLength_ = 1.0;
-  double least_x_ = 0.0;
+  double leastX_ = 0.0;
   cv::Mat color_;
   cv::Mat seen_;
   cv::Mat offset_;
