@@ -68,6 +68,8 @@ Opening lookAt(const WallProfile& profile, const Gap& gap, const RgbdView& view,
 std::optional<double> evidenceOf(const Opening& opening, const OpenDoorDetectorConfig& config) {
   constexpr double kLeastBehind = 0.3;
   if (opening.lintel && *opening.lintel < config.leastHeight) return std::nullopt;
+  const bool hasBoth = opening.leftLeaf && opening.rightLeaf;
+  if (opening.width() > kWidestLeaf && !opening.lintel && !hasBoth) return std::nullopt;
   if (opening.hasLeaf()) {
     const double covered = std::max(opening.leftLeaf ? opening.leftLeaf->covered : 0.0,
                                     opening.rightLeaf ? opening.rightLeaf->covered : 0.0);

@@ -87,8 +87,8 @@ std::pair<double, double> bestDirection(const Flats& flats, const Eigen::Vector2
   const auto best = std::max_element(covered.begin(), covered.end(),
                                      [](const auto& a, const auto& b) { return a.count() < b.count(); });
   const double bins = std::floor(width / kBin) - std::floor(kNearAxis / kBin);
-  return {(static_cast<int>(best - covered.begin()) - kDirections / 2) * kStep,
-          static_cast<double>(best->count()) / std::max(1.0, bins)};
+  const int direction = static_cast<int>(best - covered.begin()) - kDirections / 2;
+  return {direction * kStep, static_cast<double>(best->count()) / std::max(1.0, bins)};
 }
 
 /// Least squares of the points that it holds.

@@ -17,6 +17,9 @@ constexpr double kHighestTop = 2.35;
 constexpr double kOffWall = 0.25;    // metres between a leaf's edge and the wall's plane: jamb, frame, what is hidden
 constexpr double kStandsOut = 0.12;  // metres, at least
 constexpr double kLeastAngle = 8.0 * std::numbers::pi / 180.0;
+// Where the wall does not tell the side: nobody opens a door by the supplement of these.
+constexpr double kClearLeast = 20.0 * std::numbers::pi / 180.0;
+constexpr double kClearMost = 75.0 * std::numbers::pi / 180.0;
 constexpr double kMostAngle = 100.0 * std::numbers::pi / 180.0;
 
 /// Metres behind a leaf's plane that is not the leaf any more: where it is ajar, the wall is not far.
@@ -117,9 +120,10 @@ std::optional<SwungLeaf> findSwungLeaf(const WallProfile& wall, const WallProfil
   };
   constexpr int kClearly = 3;  // strips
   const int more = speaksFor(1.0) - speaksFor(-1.0);
-  if (std::abs(more) < kClearly) return std::nullopt;
-  swung.hinge.closing = more > 0 ? 1.0 : -1.0;
+  const bool sideIsSeen = std::abs(more) >= kClearly;
+  swung.hinge.closing = (sideIsSeen ? more > 0 : along.x() > 0.0) ? 1.0 : -1.0;
   swung.angle = std::acos(std::clamp(swung.hinge.closing * along.x(), -1.0, 1.0));
+  if (!sideIsSeen && (swung.angle < kClearLeast || swung.angle > kClearMost)) return std::nullopt;
   if (swung.angle < kLeastAngle || swung.angle > kMostAngle) return std::nullopt;
   return swung;
 }
