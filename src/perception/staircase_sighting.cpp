@@ -183,12 +183,19 @@ void Flight::tellNewFloor(StaircaseSighting& sighting) const {
   }
 }
 
+/// Metres by which two rises and a tread together are longer than anybody's pace (Blondel 1675; builders keep to 0.6 to
+/// 0.65 m): boxes piled up like steps are so. Low and narrow steps there are.
+double overlong(const StepLattice& lattice) {
+  constexpr double kLongestPace = 0.72;
+  return std::max(0.0, 2.0 * lattice.rise + lattice.depth - kLongestPace);
+}
+
 /// Log-odds. Three steps may be a sofa's; the more steps, the better they fit and the surer the floor they stand on,
 /// the less else it can be.
-double evidenceOf(const FlightSteps& flight, double roughness, bool meetsFloor) {
+double evidenceOf(const FlightSteps& flight, const FoundLattice& found, bool meetsFloor) {
   const auto steps = static_cast<double>(flight.steps.size());
-  return -4.0 + std::min(steps, 8.0) + 4.0 * (flight.count.share() - 0.8) + 4.0 * (0.4 - roughness) +
-         (meetsFloor ? 1.0 : -1.0);
+  return -4.0 + std::min(steps, 8.0) + 4.0 * (flight.count.share() - 0.8) + 4.0 * (0.4 - found.roughness) -
+         50.0 * overlong(found.lattice) + (meetsFloor ? 1.0 : -1.0);
 }
 
 }  // namespace
@@ -201,7 +208,7 @@ StaircaseSighting sightingOf(const RgbdView& view, const Surfaces& surfaces, con
   sighting.slope = found.lattice.slope();
   flight.tellFoot(sighting);
   flight.tellNewFloor(sighting);
-  sighting.evidence = evidenceOf(steps, found.roughness, flight.meetsFloor());
+  sighting.evidence = evidenceOf(steps, found, flight.meetsFloor());
   for (const Eigen::Vector3d& point : steps.points_in_flight) {
     sighting.points_in_submap.emplace_back((T_submap_flight * point).cast<float>());
   }

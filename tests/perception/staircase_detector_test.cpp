@@ -225,6 +225,14 @@ TEST(StaircaseDetector, PilesOfBoxesAreNoStaircase) {
   }
 }
 
+TEST(StaircaseDetector, BoxesPiledUpLikeStepsAreTooLongForAPace) {
+  DepthScene scene;
+  for (int i = 0; i < 4; ++i) {
+    scene.addBlock(at(1.8 + 0.38 * i, 0.0, 0.0), {0.38, 0.9, 0.24 * (i + 1)});
+  }
+  for (const auto& sighting : sightings(scene, cameraAt({0.0, 0.0, 1.2}, 0.0, 0.1))) EXPECT_LT(sighting.evidence, 0.0);
+}
+
 TEST(StaircaseDetector, ShelvesAreNoStaircase) {
   DepthScene scene;
   scene.addBox(at(2.9, 0.0, 0.0, 0.9), {0.03, 1.6, 1.8});  // back
