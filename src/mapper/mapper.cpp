@@ -170,6 +170,11 @@ void Mapper::Impl::resume(const map::MapView& before) {
 void Mapper::Impl::beginPerception(const map::MapView& before) {
   perception::Perception::Ids first;
   for (const auto& entity : before.entities()) first.entity.value = std::max(first.entity.value, entity.id.value + 1);
+  // Nor those of things that were given up.
+  for (const auto& event : before.events()) {
+    const auto id = base::parseId<base::EntityId>(event.subject);
+    if (id) first.entity.value = std::max(first.entity.value, id->value + 1);
+  }
   for (const auto& track : before.tracks()) first.track.value = std::max(first.track.value, track.id.value + 1);
   perception_ =
       std::make_unique<perception::Perception>(config_.perception, session_.id, session_.classes, first, debug_);
