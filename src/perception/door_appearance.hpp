@@ -17,9 +17,6 @@ struct DoorAppearance {
   double filled = 0.0;     ///< a surface in the plane of the door
   double through = 0.0;    ///< one sees through
   double unknown = 1.0;    ///< out of the image or without depth
-  /// What is seen lies deeper by so much a metre across: about 0 of a closed leaf; one that is ajar, or the jamb and
-  /// the room that one sees from aside, do not lie in the plane of the wall.
-  double slope = 0.0;
   bool hasNoWall = false;  ///< one sees through on both sides of it too
 
   double known() const { return 1.0 - hidden - unknown; }

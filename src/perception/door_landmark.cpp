@@ -172,6 +172,8 @@ map::Entity entityOf(const DoorLandmark& door) {
   entity.T_submap_entity = poseOf(door.pose_in_submap);
   entity.covariance = covariance6(door.covariance);
   entity.attributes = attributesOf(door);
+  // A grid tells that a door stood open, but not when: that says nothing of its state now.
+  if (hasLeaf(door)) entity.lastSeen = door.state.time().value_or(door.lastSeen);
   return entity;
 }
 

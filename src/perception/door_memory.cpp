@@ -17,10 +17,11 @@ constexpr double kWellSeenObliquity = 1.0;  // radians
 constexpr double kWellSeenShare = 0.9;      // of its spots
 constexpr double kFarthestLook = 6.0;       // metres
 /// Shares of the spots that tell the state.
-constexpr double kLeastKnown = 0.6;
+constexpr double kLeastKnown = 0.3;
+constexpr double kMostlyKnown = 0.75;
 constexpr double kClearlyThrough = 0.8;
-constexpr double kClearlyFilled = 0.9;
-constexpr double kFlat = 0.15;          // metres a metre: 8.5 degrees
+constexpr double kWhollyFilled = 0.95;  // of what is known: less, and it is not closed
+constexpr double kFrontal = 1.15;       // radians; beyond, jambs fill an open door as well as its leaf would
 constexpr double kHardlyFilled = 0.5;   // where a closed leaf was found all the same, it was none
 constexpr double kGreatestSigma = 0.2;  // metres; where a door is known no better, one may look past it
 /// Where there is no wall, there is no door: as bad as so many misses.
@@ -28,14 +29,17 @@ constexpr double kNoWall = 3.0;
 /// A door in the map gives way to one in its place only where that is likelier by so much.
 constexpr double kClearlyLikelier = 1.0;
 
-/// Of a reading that shows an opening and no leaf, or a depth that goes through it: closed, ajar, open.
-constexpr DoorStateFilter::Likelihoods kOpening = {0.1, 0.3, 0.6};
-/// ... that shows no closed leaf.
-constexpr DoorStateFilter::Likelihoods kNotClosed = {0.03, 0.47, 0.5};
-constexpr DoorStateFilter::Likelihoods kSeenThrough = {0.02, 0.3, 0.68};
+/// How likely a reading is where the door is truly closed, ajar, open; as counted in simulated buildings.
+using Likelihoods = DoorStateFilter::Likelihoods;
+constexpr Likelihoods kOpening = {0.05, 0.45, 0.5};     // found, with no leaf in it
+constexpr Likelihoods kClosedLeaf = {0.5, 0.25, 0.25};  // found, also where a leaf or jamb is seen from aside
+// Of what depth shows in its place:
+constexpr Likelihoods kSeenThrough = {0.02, 0.18, 0.8};
+constexpr Likelihoods kNotClosed = {0.02, 0.46, 0.52};
+constexpr Likelihoods kFilledFromBefore = {0.8, 0.12, 0.08};
+constexpr Likelihoods kFilledFromAside = {0.48, 0.24, 0.28};
 
-void tellState(DoorLandmark& door, base::Time time, const DoorStateFilter::Likelihoods& likelihoods,
-               const EntityMemoryConfig& config) {
+void tellState(DoorLandmark& door, base::Time time, const Likelihoods& likelihoods, const EntityMemoryConfig& config) {
   const auto before = door.state.state();
   door.state.update(time, likelihoods, config.stateMemory);
   door.lastSeen = std::max(door.lastSeen, time);
@@ -44,16 +48,28 @@ void tellState(DoorLandmark& door, base::Time time, const DoorStateFilter::Likel
 }
 
 void tellState(DoorLandmark& door, const DoorSighting& sighting, const EntityMemoryConfig& config) {
-  if (sighting.door.state != map::DoorState::kUnknown && sighting.door.hasLeaf) {
-    tellState(door, sighting.time, DoorStateFilter::told(sighting.door.state, config.stateTrust), config);
-  } else if (!sighting.door.hasLeaf) {
+  if (!sighting.door.hasLeaf) {
     tellState(door, sighting.time, kOpening, config);
+  } else if (sighting.door.state == map::DoorState::kClosed) {
+    tellState(door, sighting.time, kClosedLeaf, config);
+  } else if (sighting.door.state != map::DoorState::kUnknown) {
+    tellState(door, sighting.time, DoorStateFilter::told(sighting.door.state, config.stateTrust), config);
   }
 }
 
 bool isWellSeen(const DoorAppearance& appearance) {
   return appearance.isWhole && appearance.range < kWellSeenRange && appearance.obliquity < kWellSeenObliquity &&
          appearance.known() > kWellSeenShare;
+}
+
+/// None: too little is seen of it.
+std::optional<Likelihoods> toldByDepth(const DoorAppearance& appearance) {
+  const double known = appearance.known();
+  if (known < kLeastKnown) return std::nullopt;
+  if (appearance.through >= kClearlyThrough * known) return kSeenThrough;
+  if (appearance.filled < kWhollyFilled * known) return kNotClosed;
+  const bool isFromBefore = appearance.obliquity < kFrontal && known >= kMostlyKnown;
+  return isFromBefore ? kFilledFromBefore : kFilledFromAside;
 }
 
 double likelihoodToStay(const DoorLandmark& door) {
@@ -220,18 +236,10 @@ void DoorMemory::see(DoorLandmark& door, const Frames& frames, const RgbdView& v
   if (place.covariance.topLeftCorner<2, 2>().trace() > kGreatestSigma * kGreatestSigma) return;
   const auto appearance = appearanceOf(poseOf(place.pose), door.width, door.height, view, surfaces);
   const bool isDetected = door.lastDetected == view.time;
-  if (appearance.known() >= kLeastKnown) {
-    const bool isSeenThrough = appearance.through >= kClearlyThrough * appearance.known();
-    if (isSeenThrough && !appearance.hasNoWall) tellState(door, view.time, kSeenThrough, config_);
-    if (isDetected && appearance.filled < kHardlyFilled * appearance.known()) takeBackLeaf(door, frames, view);
-    const bool isFlat = std::abs(appearance.slope) < kFlat;
-    if (!isFlat) tellState(door, view.time, kNotClosed, config_);
-    // From aside one sees the jamb, which fills an open door as well as its leaf would.
-    const bool isFrontal = appearance.obliquity < kWellSeenObliquity;
-    if (!isDetected && isFrontal && isFlat && appearance.filled >= kClearlyFilled) {
-      tellState(door, view.time, DoorStateFilter::told(map::DoorState::kClosed, config_.stateTrust), config_);
-    }
-  }
+  const auto told = appearance.hasNoWall ? std::nullopt : toldByDepth(appearance);
+  if (told) tellState(door, view.time, *told, config_);
+  const bool isClear = appearance.known() >= kLeastKnown;
+  if (isDetected && isClear && appearance.filled < kHardlyFilled * appearance.known()) takeBackLeaf(door, frames, view);
   const bool isRefuted = appearance.hasNoWall && appearance.through >= kClearlyThrough;
   if (isDetected || !(isRefuted || isWellSeen(appearance))) return;
   auto& look = lookFrom(door.looks, frames.submap(), view.T_submap_camera.translation(), config_.lookSpacing);

@@ -6,6 +6,7 @@
 #include "prodomos/map/entity.hpp"
 
 #include <array>
+#include <optional>
 
 namespace prodomos::perception {
 
@@ -22,6 +23,8 @@ class DoorStateFilter {
   void update(base::Time time, const Likelihoods& likelihoods, double memory);
   /// Unknown until a reading has told.
   map::DoorState state() const;
+  /// Of the last reading that told something.
+  std::optional<base::Time> time() const { return isTold_ ? std::optional(time_) : std::nullopt; }
 
   static void fields(auto& archive, auto& self) { archive(self.beliefs_, self.isTold_, self.time_); }
 
