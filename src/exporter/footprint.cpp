@@ -18,7 +18,9 @@ Polyline rectangle(double length, double width) {
 /// In the x-y-plane of the entity. A closed set: a new class of entities has to say here what it looks like.
 struct Lines {
   std::vector<Polyline> operator()(const map::Door& door) const {
-    return {{{0.0, -door.width / 2.0}, {0.0, door.width / 2.0}}};
+    const auto plan = doorPlan(door);
+    if (plan.swing.empty()) return {plan.leaf};
+    return {plan.leaf, plan.swing};
   }
 
   std::vector<Polyline> operator()(const map::Staircase& stairs) const {
@@ -64,6 +66,24 @@ struct Lines {
 };
 
 }  // namespace
+
+DoorPlan doorPlan(const map::Door& door) {
+  const double half = door.width / 2.0;
+  if (!door.hasLeaf) return {{{0.0, -half}, {0.0, half}}, {}};
+  const double angle = door.state == map::DoorState::kOpen   ? std::numbers::pi / 2.0
+                       : door.state == map::DoorState::kAjar ? std::numbers::pi / 5.0
+                                                             : 0.0;
+  const double hinge = door.hingeSide == map::HingeSide::kRight ? -half : half;
+  const double side = hinge < 0.0 ? 1.0 : -1.0;  // from the hinge to the other jamb, along y
+  const auto leafEnd = [&](double swung) {
+    return Eigen::Vector2d(door.width * std::sin(swung), hinge + side * door.width * std::cos(swung));
+  };
+  DoorPlan plan{{{0.0, hinge}, leafEnd(angle)}, {}};
+  if (door.hingeSide == map::HingeSide::kUnknown) return plan;
+  constexpr int kSteps = 10;
+  for (int step = 0; step <= kSteps; ++step) plan.swing.push_back(leafEnd(step * std::numbers::pi / 2.0 / kSteps));
+  return plan;
+}
 
 std::vector<Polyline> footprint(const map::Entity& entity, const geometry::Pose3& T_map_submap) {
   const geometry::Pose3 T_map_entity = T_map_submap * entity.T_submap_entity;

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the prodomos authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "exporter/contents.hpp"
+#include "exporter/footprint.hpp"
 #include "exporter/palette.hpp"
 #include "exporter/plan.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace prodomos::exporter {
 namespace {
@@ -35,23 +35,10 @@ struct Symbol {
     for (const double jamb : {-half, half}) {
       shapes.emplace_back(Circle{.centre = at(0, jamb), .radius = 1.8, .style = filled(kDoorColor)});
     }
-    if (!door.hasLeaf) {
-      shapes.emplace_back(line({{0, -half}, {0, half}}, stroked(kDoorColor, 1.2, {1.0, 3.0})));
-      return shapes;
-    }
-    const double swing = door.state == map::DoorState::kOpen   ? std::numbers::pi / 2
-                         : door.state == map::DoorState::kAjar ? std::numbers::pi / 5
-                                                               : 0.0;
-    const double hinge = door.hingeSide == map::HingeSide::kRight ? -half : half;
-    const double side = hinge < 0 ? 1.0 : -1.0;  // from the hinge to the other jamb, along y
-    const auto leafEnd = [&](double angle) {
-      return Point(door.width * std::sin(angle), hinge + side * door.width * std::cos(angle));
-    };
-    shapes.emplace_back(line({{0, hinge}, leafEnd(swing)}, stroked(kDoorColor, 2.6)));
-    std::vector<Point> arc;
-    constexpr int kSteps = 10;
-    for (int step = 0; step <= kSteps; ++step) arc.push_back(leafEnd(step * std::numbers::pi / 2 / kSteps));
-    if (door.hingeSide != map::HingeSide::kUnknown) shapes.emplace_back(line(arc, stroked(kDoorColor, 0.7)));
+    const auto plan = doorPlan(door);
+    shapes.emplace_back(
+        line(plan.leaf, door.hasLeaf ? stroked(kDoorColor, 2.6) : stroked(kDoorColor, 1.2, {1.0, 3.0})));
+    if (!plan.swing.empty()) shapes.emplace_back(line(plan.swing, stroked(kDoorColor, 0.7)));
     return shapes;
   }
 

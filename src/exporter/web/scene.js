@@ -170,16 +170,19 @@ const entityShown = entity => state.on[kEntitySwitches[entity.class] || 'entitie
 
 function paintEntity(ctx, px, entity) {
   const color = entityColor(entity);
-  const width = entity.class === 'door' ? 4 : 2;
+  const isDoor = entity.class === 'door';
+  const width = isDoor ? 4 : 2;
+  const dash = isDoor && !entity.attributes.has_leaf ? [2, 6] : [];
   if (entity.id === state.selection) {
     ctx.globalAlpha = 0.35;
     for (const points of entity.shape) line(ctx, px, points, color, width + 9);
     ctx.globalAlpha = 1;
   }
-  for (const points of entity.shape) {
-    line(ctx, px, points, colors.halo, width + 2);
-    line(ctx, px, points, color, width);
-  }
+  entity.shape.forEach((points, part) => {
+    const swing = isDoor && part > 0;  // the way of its leaf
+    if (!swing) line(ctx, px, points, colors.halo, width + 2);
+    line(ctx, px, points, color, swing ? 1.25 : width, dash);
+  });
 }
 
 function paintNodes(ctx, px) {
