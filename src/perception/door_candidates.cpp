@@ -4,6 +4,8 @@
 
 #include "prodomos/sensors/camera.hpp"
 
+#include "perception/wall_samples.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -19,91 +21,6 @@ constexpr double kLeastDouble = 1.15;
 constexpr double kUsualHeight = 2.0;
 constexpr double kFrame = 0.1;         // metres, more than boards of frames are wide
 constexpr double kFrameDepth = 0.012;  // by which they usually stand out of the wall: too little to be measured
-
-double median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return static_cast<double>(*middle);
-}
-
-struct Box {
-  int first = 0, last = 0;  ///< columns
-  int top = 0, bottom = 0;  ///< rows
-
-  bool empty() const { return last <= first || bottom <= top; }
-};
-
-Box clipped(Box box, const RectifiedWall& wall) {
-  box.first = std::clamp(box.first, 0, wall.width());
-  box.last = std::clamp(box.last, 0, wall.width());
-  box.top = std::clamp(box.top, 0, wall.height());
-  box.bottom = std::clamp(box.bottom, 0, wall.height());
-  return box;
-}
-
-bool isVisible(Seen seen) {
-  return seen == Seen::kWall || seen == Seen::kColor;
-}
-
-/// The columns of metres.
-int columns(double metres) {
-  return static_cast<int>(std::lround(metres / RectifiedWall::kPixel));
-}
-
-/// Known offsets in a box, one a block.
-std::vector<float> offsetsIn(const RectifiedWall& wall, const Box& unclipped) {
-  std::vector<float> offsets;
-  const Box box = clipped(unclipped, wall);
-  for (int row = box.top; row < box.bottom; row += RectifiedWall::kBlock) {
-    for (int column = box.first; column < box.last; column += RectifiedWall::kBlock) {
-      const float offset = wall.offset(column, row);
-      if (!std::isnan(offset)) offsets.push_back(offset);
-    }
-  }
-  return offsets;
-}
-
-struct Color {
-  double r = 0.0, g = 0.0, b = 0.0;
-};
-double difference(const Color& a, const Color& b) {
-  return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
-}
-
-/// Colours of visible pixels of a box, every `step`th.
-std::vector<cv::Vec3b> colorsIn(const RectifiedWall& wall, const Box& unclipped, int step) {
-  std::vector<cv::Vec3b> colors;
-  const Box box = clipped(unclipped, wall);
-  for (int row = box.top; row < box.bottom; row += step) {
-    const auto* pixel = wall.color().ptr<cv::Vec3b>(row);
-    for (int column = box.first; column < box.last; column += step) {
-      if (isVisible(wall.seen(column, row))) colors.push_back(pixel[column]);
-    }
-  }
-  return colors;
-}
-
-std::optional<Color> medianColor(const std::vector<cv::Vec3b>& colors, std::size_t least) {
-  if (colors.size() < least) return std::nullopt;
-  std::array<double, 3> medians{};
-  std::vector<float> channel(colors.size());
-  for (int i = 0; i < 3; ++i) {
-    std::ranges::transform(colors, channel.begin(),
-                           [i](const cv::Vec3b& color) { return static_cast<float>(color[i]); });
-    medians[static_cast<std::size_t>(i)] = median(channel);
-  }
-  return Color{medians[0], medians[1], medians[2]};
-}
-
-double shareLike(const std::vector<cv::Vec3b>& colors, const Color& color) {
-  constexpr double kAlike = 26.0;
-  if (colors.empty()) return 0.0;
-  const auto alike = std::ranges::count_if(colors, [&](const cv::Vec3b& pixel) {
-    return difference({static_cast<double>(pixel[0]), static_cast<double>(pixel[1]), static_cast<double>(pixel[2])},
-                      color) < kAlike;
-  });
-  return static_cast<double>(alike) / static_cast<double>(colors.size());
-}
 
 /// A pair of lines being looked at: cue by cue.
 class Examination {
@@ -146,6 +63,15 @@ class Examination {
   int wallRow(double z) const { return std::clamp(static_cast<int>(std::lround(wall_.rowOf(z))), 0, wall_.height()); }
   Box insideBox(double margin, double low, double high) const {
     return {first_ + columns(margin), last_ - columns(margin), leafRow(high), leafRow(low)};
+  }
+
+  /// Of two boxes; what lies far from the wall's plane is no wall.
+  std::vector<float> offsetsAround(const Box& left, const Box& right) const {
+    auto offsets = offsetsIn(wall_, left);
+    const auto more = offsetsIn(wall_, right);
+    offsets.insert(offsets.end(), more.begin(), more.end());
+    std::erase_if(offsets, [](float y) { return std::abs(y) > 0.3F; });
+    return offsets;
   }
 
   bool hasDepthOfLeaf();
@@ -204,35 +130,31 @@ bool Examination::hasDepthOfLeaf() {
     return std::abs(static_cast<double>(offset) - found_.leaf_y) < 0.02 + 3.0 * sigma_;
   });
   found_.cue(Cue::kFlat) = static_cast<double>(inPlane) / static_cast<double>(offsets.size()) - 0.5;
-  const int third = (last_ - first_) / 3;
-  auto left = offsetsIn(wall_, {first_ + 3, first_ + third, leaf.top, leaf.bottom});
-  auto right = offsetsIn(wall_, {last_ - third, last_ - 3, leaf.top, leaf.bottom});
-  if (left.size() > 5 && right.size() > 5) {
-    found_.cue(Cue::kTurned) = std::clamp(std::abs(median(left) - median(right)) / 0.1, 0.0, 3.0);
-  }
+  found_.cue(Cue::kTurned) = tiltedShare(profileOf(wall_, leaf), 0.015 + 1.5 * sigma_);
   return true;
 }
 
 /// Where the jambs truly are: an edge beyond which the leaf is seen to its end lies on the leaf, one that hides part of
 /// it lies on the wall's surface.
 void Examination::place() {
+  constexpr std::size_t kEnough = 9;  // blocks
   const int wide = columns(0.4);
   const Box left{first_ - wide, first_ - columns(kFrame), wallRow(1.8), wallRow(0.4)};
   const Box right{last_ + columns(kFrame), last_ + wide, wallRow(1.8), wallRow(0.4)};
-  auto around = offsetsIn(wall_, left);
-  const auto more = offsetsIn(wall_, right);
-  around.insert(around.end(), more.begin(), more.end());
-  std::erase_if(around, [](float y) { return std::abs(y) > 0.3F; });
-  const auto blocks = [](const Box& box) {
-    return (box.last - box.first) * (box.bottom - box.top) / (RectifiedWall::kBlock * RectifiedWall::kBlock);
-  };
-  const int beside = blocks(clipped(left, wall_)) + blocks(clipped(right, wall_));
+  const auto around = offsetsAround(left, right);
+  const int beside = blocksOf(clipped(left, wall_)) + blocksOf(clipped(right, wall_));
   if (beside > 0)
     found_.cue(Cue::kDepthless) = (1.0 - known_) * std::min(1.0, static_cast<double>(around.size()) / beside);
-  const bool isKnown = around.size() > 8;
-  surroundY_ = isKnown ? median(around) : found_.leaf_y;
+  // Beyond the far jamb one looks into the recess: the near side alone is sure to be wall.
+  const double seenLeft = wall_.xOf(found_.leftLine.columnAt(wall_.rowOf(1.0)));
+  const double seenRight = wall_.xOf(found_.rightLine.columnAt(wall_.rowOf(1.0)));
+  auto surround = seenLeft > 0.0 ? offsetsAround(left, {}) : seenRight < 0.0 ? offsetsAround({}, right) : around;
+  if (surround.size() < kEnough) surround = around;
+  const bool isKnown = surround.size() >= kEnough;
+  surroundY_ = isKnown ? median(surround) : found_.leaf_y;
   const double deeper = found_.leaf_y - surroundY_;
-  const double doubt = std::hypot(found_.leafSigma, 0.008);
+  // Far off, depth errs alike over a whole leaf: it does not average out.
+  const double doubt = std::hypot(found_.leafSigma, 0.008, sigma_);
   if (isKnown && found_.cue(Cue::kFlat) != 0.0) {
     found_.cue(Cue::kStandsOut) = std::clamp(-deeper / (0.01 + doubt) - 0.5, 0.0, 3.0);
     found_.cue(Cue::kRecessed) = std::clamp(deeper / (0.01 + doubt) - 0.5, 0.0, 3.0);
@@ -240,8 +162,6 @@ void Examination::place() {
   const auto trueX = [&](double x, bool hides) {
     return x / wall_.shrinkage(hides ? std::min(found_.leaf_y, surroundY_) - kFrameDepth : found_.leaf_y);
   };
-  const double seenLeft = wall_.xOf(found_.leftLine.columnAt(wall_.rowOf(1.0)));
-  const double seenRight = wall_.xOf(found_.rightLine.columnAt(wall_.rowOf(1.0)));
   found_.left_x = trueX(seenLeft, seenLeft > 0.0);
   found_.right_x = trueX(seenRight, seenRight < 0.0);
 }
@@ -441,7 +361,7 @@ void Examination::judgeView() {
   found_.cue(Cue::kFar) = std::max(0.0, wall_.rangeAt(middle) - 4.0) / 2.0;
   found_.cue(Cue::kOblique) = std::min(4.0, std::tan(wall_.obliquenessAt(middle)));
   if (found_.top_z <= 0.0) return;
-  found_.cue(Cue::kLow) = std::max(0.0, 1.8 - found_.top_z) / 0.1;
+  found_.cue(Cue::kLow) = std::max(0.0, 1.7 - found_.top_z) / 0.1;
   found_.cue(Cue::kHigh) = std::max(0.0, found_.top_z - 2.15) / 0.1;
 }
 

@@ -29,7 +29,7 @@ enum class Cue : std::uint8_t {
   kEdgeOfLeaf,     ///< share of the strips beside the jambs that has the leaf's colour
   kFlat,           ///< share of known depths that lie in its plane
   kDepthless,      ///< its depth is not known, that of the wall around it is: one sees through
-  kTurned,         ///< how far one side lies behind the other
+  kTurned,         ///< how much more of it lies in a plane that is turned, as an ajar leaf is
   kStandsOut,      ///< it lies before the wall around it: a panel, a poster, a board
   kRecessed,       ///< it lies behind it
   kNothingAround,  ///< share of its surroundings that lie far behind it: a cupboard

@@ -70,8 +70,7 @@ DoorSighting sightingOf(const RgbdView& view, const RectifiedWall& wall, const D
   sighting.covariance(2, 2) = 0.02 * 0.02;
   sighting.covariance(3, 3) = yawSigma * yawSigma;
   if (candidate.leaves == 1 && handle.left > 0.0 && handle.right > 0.0) {
-    // The hinge is on the other side of the handle (002 §II-D).
-    sighting.hingeEvidence = std::clamp(std::log(handle.right / handle.left), -3.0, 3.0);
+    sighting.hingeEvidence = hingeEvidenceOf(handle);
     sighting.door.hingeSide = sighting.hingeEvidence > 0.0 ? map::HingeSide::kLeft : map::HingeSide::kRight;
   }
   return sighting;

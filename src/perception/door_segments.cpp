@@ -20,7 +20,7 @@ constexpr int kMostSide = 8;
 
 /// Per column; where a pixel of the camera covers much of the wall, edges are blurred.
 std::vector<int> sidesOf(const RectifiedWall& wall) {
-  constexpr double kBlur = 0.8;  // camera pixels
+  constexpr double kBlur = 1.3;  // camera pixels
   std::vector<int> sides;
   for (int column = 0; column < wall.width(); ++column) {
     const double pixels = kBlur * wall.footprintAt(wall.xOf(column)) / RectifiedWall::kPixel;

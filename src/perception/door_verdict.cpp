@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace prodomos::perception {
 
@@ -16,37 +17,39 @@ struct CueWeight {
   double fit;
 };
 
-constexpr double kBias = -17.71;
+constexpr double kBias = -16.09;
+/// What the corners' ratio tells of the hinge.
+constexpr double kHandle = 0.78;
 constexpr std::array<CueWeight, static_cast<std::size_t>(Cue::kCount)> kWeights{{
-    {"weaker jamb", 4.76, 6.86},
-    {"stronger jamb", 5.71, 2.25},
-    {"top edge", 2.27, 1.03},
-    {"top goes on", -5.46, -1.87},
-    {"top goes on both ways", 0.62, -5.64},
-    {"no top", -3.01, -1.02},
-    {"skirting", -3.18, -3.78},
-    {"wall's foot", -3.23, -0.39},
-    {"reaches floor", 2.56, -0.01},
-    {"uniform", 6.42, 0.44},
-    {"clutter", -8.46, -13.20},
-    {"leaf at jambs", -1.22, 3.92},
-    {"flat", 3.96, 4.79},
-    {"no depth", -0.64, 1.27},
-    {"turned", 0.33, 0.24},
-    {"stands out", -2.33, 1.18},
-    {"recessed", 1.11, 0.24},
-    {"nothing around", -11.05, 0.00},
-    {"handle", 0.34, 0.20},
-    {"narrow", -3.33, -3.97},
-    {"wide", -2.41, -3.86},
-    {"low", -2.31, 0.00},
-    {"high", 0.83, 0.68},
-    {"cut", -0.61, 1.00},
-    {"line inside", 0.68, -0.26},
-    {"line outside", 0.93, 0.85},
-    {"hidden", -2.52, -1.18},
-    {"far", 0.48, -1.14},
-    {"oblique", 0.18, 0.16},
+    {"weaker jamb", 3.10, 6.52},
+    {"stronger jamb", 3.63, -0.52},
+    {"top edge", 1.83, 1.35},
+    {"top goes on", -4.85, -1.27},
+    {"top goes on both ways", 1.08, -45.75},
+    {"no top", -2.73, -0.35},
+    {"skirting", -5.12, -3.62},
+    {"wall's foot", -1.50, -0.60},
+    {"reaches floor", 1.27, -0.12},
+    {"uniform", 8.56, 1.76},
+    {"clutter", -4.65, -11.46},
+    {"leaf at jambs", -0.93, 3.63},
+    {"flat", 4.89, 7.00},
+    {"no depth", -3.97, -0.07},
+    {"turned", -6.81, -18.46},
+    {"stands out", -2.34, -10.49},
+    {"recessed", 1.08, 0.50},
+    {"nothing around", -9.94, 0.00},
+    {"handle", 0.62, 0.25},
+    {"narrow", -4.12, -4.31},
+    {"wide", -2.57, -3.53},
+    {"low", -14.05, 0.00},
+    {"high", 1.11, 1.01},
+    {"cut", -0.12, 2.52},
+    {"line inside", 0.21, -0.68},
+    {"line outside", 0.58, 1.39},
+    {"hidden", -0.70, 0.05},
+    {"far", 1.13, 0.14},
+    {"oblique", 0.37, 0.56},
 }};
 
 double sumOf(const DoorCandidate& candidate, double CueWeight::*weight) {
@@ -63,6 +66,15 @@ double evidenceOf(const DoorCandidate& candidate) {
 
 double fitOf(const DoorCandidate& candidate) {
   return sumOf(candidate, &CueWeight::fit);
+}
+
+double hingeEvidenceOf(const Handle& handle) {
+  constexpr double kMost = 3.0;
+  return std::clamp(kHandle * std::log(handle.right / handle.left), -kMost, kMost);
+}
+
+std::string_view nameOf(Cue cue) {
+  return kWeights[static_cast<std::size_t>(cue)].name;
 }
 
 std::string_view weakestPoint(const DoorCandidate& candidate) {

@@ -17,7 +17,13 @@ double evidenceOf(const DoorCandidate& candidate);
 /// more is the better.
 double fitOf(const DoorCandidate& candidate);
 
-/// The cue that speaks most against it, in a word: "skirting", "no top".
+/// Log-odds that the hinge is on the left: it is on the other side of the handle (002 §II-D). Both sides were seen.
+double hingeEvidenceOf(const Handle& handle);
+
+/// A cue in a word: "skirting", "no top".
+std::string_view nameOf(Cue cue);
+
+/// The cue that speaks most against it, in a word.
 std::string_view weakestPoint(const DoorCandidate& candidate);
 
 }  // namespace prodomos::perception

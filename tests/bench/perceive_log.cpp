@@ -8,9 +8,7 @@
 // Prints, by log and pooled: recall, precision and medians as `evaluate prediction` has them; of each detector its
 // single sightings, those that lie at a true thing and those that do not, with their mean evidence and errors;
 // milliseconds a frame. --claims lists every thing of truth or map and what became of it; --sightings every false
-// sighting; --look every sighting of one true thing. By hand, beside a build tree: compile this file and
-// src/perception/*.cpp, link prodomos evaluation io map sensors geometry base and OpenCV's core imgproc features2d
-// imgcodecs dnn.
+// sighting; --look every sighting of one true thing.
 #include "prodomos/base/config.hpp"
 #include "prodomos/base/stopwatch.hpp"
 #include "prodomos/evaluation/alignment.hpp"

@@ -159,6 +159,14 @@ TEST(DoorDetector, OpeningWithoutALeafIsNotClosed) {
   for (const Look& look : {Look{}, oblique(50.0, 2.0)}) EXPECT_TRUE(findIn(scene, look).empty()) << look.x;
 }
 
+TEST(DoorDetector, LeafThatStandsOpenIsNotClosed) {
+  for (const double degrees : {0.0, 45.0, 60.0, 70.0}) {
+    DoorScene scene({DrawnDoor{.leaves = 0}});
+    scene.add({0.41, 0.05, 0.0}, {0.45, 0.95, DoorScene::kHeight}, {168, 118, 72}, "door");
+    EXPECT_TRUE(findIn(scene, oblique(degrees, 1.5)).empty()) << degrees;
+  }
+}
+
 TEST(DoorDetector, CovarianceCoversTheErrors) {
   for (const double degrees : {0.0, 40.0, 60.0}) {
     const auto doors = findIn(DoorScene({DrawnDoor{}}), oblique(degrees, 2.0 + 1.0 * std::cos(degrees * kPi / 180.0)));
