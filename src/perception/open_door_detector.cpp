@@ -64,7 +64,7 @@ Opening lookAt(const WallProfile& profile, const Gap& gap, const RgbdView& view,
   return opening;
 }
 
-/// Log-odds; none: it is no door.
+/// Log-odds, as counted in simulated buildings; none: it is no door.
 std::optional<double> evidenceOf(const Opening& opening, const OpenDoorDetectorConfig& config) {
   constexpr double kLeastBehind = 0.3;
   if (opening.lintel && *opening.lintel < config.leastHeight) return std::nullopt;
@@ -73,12 +73,12 @@ std::optional<double> evidenceOf(const Opening& opening, const OpenDoorDetectorC
   if (opening.hasLeaf()) {
     const double covered = std::max(opening.leftLeaf ? opening.leftLeaf->covered : 0.0,
                                     opening.rightLeaf ? opening.rightLeaf->covered : 0.0);
-    return 0.5 + 2.0 * (covered - 0.65) + (opening.lintel ? 1.0 : 0.0);
+    return 1.5 + 2.0 * (covered - 0.65) + (opening.lintel ? 1.5 : 0.0);
   }
   if (opening.behind < kLeastBehind) return std::nullopt;
-  if (opening.lintel) return 1.5;
+  if (opening.lintel) return 3.0;
   if (opening.showsTop || opening.width() > config.mostPlain) return std::nullopt;
-  return 0.3;
+  return 1.0;
 }
 
 /// A door or doorway in a wall's frame.
@@ -109,7 +109,7 @@ Told toldBy(const SwungLeaf& leaf) {
   const double end = leaf.hinge.x + leaf.hinge.closing * leaf.hinge.leafWidth;
   Told told{std::min(leaf.hinge.x, end), std::max(leaf.hinge.x, end), leaf.top, leaf.angle};
   told.hingeSide = leaf.hinge.closing > 0.0 ? map::HingeSide::kLeft : map::HingeSide::kRight;
-  told.evidence = 1.5;
+  told.evidence = 3.0;
   told.sigma = kSigma;
   return told;
 }
