@@ -30,13 +30,14 @@ Eigen::Vector3d cameraAt(double y) {
 }
 
 /// What lies in the wall where the door is believed; what is further off than the wall lies 3 m behind it.
-enum class Scene { kWall, kOpening, kSomebodyBefore, kNoWall };
+enum class Scene { kWall, kOpening, kAjarLeaf, kSomebodyBefore, kNoWall };
 
 double depthBeyond(Scene scene, const Eigen::Vector3d& onWall) {
   constexpr double kWall = 2.0;
   constexpr double kBehind = 5.0;
   const bool isInDoor = std::abs(onWall.y()) < 0.45 && onWall.z() < 2.0;
   if (scene == Scene::kNoWall || (scene == Scene::kOpening && isInDoor)) return kBehind;
+  if (scene == Scene::kAjarLeaf && isInDoor) return kWall + 0.25 * (onWall.y() + 0.45);
   if (scene == Scene::kSomebodyBefore && std::abs(onWall.y()) < 0.6) return 1.0;
   return kWall;
 }
@@ -109,6 +110,31 @@ TEST(EntityMemory, ASurfaceInTheOpeningClosesTheDoor) {
   for (int i = 0; i < 5; ++i) look(bench, Scene::kWall, 0.0, 10.0 + 0.2 * i);
   ASSERT_THAT(bench.entities(), SizeIs(1));
   EXPECT_EQ(doorOf(bench.entities()[0]).state, DoorState::kClosed);
+}
+
+TEST(EntityMemory, ALeafThatTurnsOutOfTheWallIsNotClosedWhateverAnImageSays) {
+  MemoryBench bench;
+  SightingMaker maker(12);
+  for (int i = 0; i < 10; ++i) {
+    const auto camera = cameraAt(-0.5 + 0.1 * i);
+    bench.add(0, camera, {maker.see(kDoor, camera, 0.2 * i)});
+    look(bench, Scene::kAjarLeaf, -0.5 + 0.1 * i, 0.2 * i);
+  }
+  ASSERT_THAT(bench.entities(), SizeIs(1));
+  EXPECT_TRUE(doorOf(bench.entities()[0]).hasLeaf);
+  EXPECT_NE(doorOf(bench.entities()[0]).state, DoorState::kClosed);
+}
+
+TEST(EntityMemory, AGridDoesNotTellWhenADoorStoodOpen) {
+  MemoryBench bench;
+  SightingMaker maker(13);
+  seeDoor(bench, maker, 10);
+  WorldDoor doorway = kDoor;
+  doorway.hasLeaf = false;
+  bench.memory.addFromGrid({0}, std::vector{maker.see(doorway, cameraAt(0.0), 60.0)}, bench.poses());
+  ASSERT_THAT(bench.entities(), SizeIs(1));
+  EXPECT_EQ(doorOf(bench.entities()[0]).state, DoorState::kClosed);
+  EXPECT_EQ(bench.entities()[0].lastSeen, test::at(1.8));
 }
 
 TEST(EntityMemory, WhatIsWellSeenAndNeverFoundAgainIsGivenUp) {
