@@ -47,7 +47,7 @@ class Strips {
 
  private:
   double sumOfSquares(double x, double y) {
-    counts_.assign(static_cast<std::size_t>(2 * half_ + 1), 0);
+    counts_.assign(2 * static_cast<std::size_t>(half_) + 1, 0);
     for (const auto& point : points_) {
       const double offset = (point.x() * x + point.y() * y) / width_ + half_ + 0.5;
       ++counts_[static_cast<std::size_t>(offset)];

@@ -170,6 +170,7 @@ std::vector<PersonSighting> PersonDetector::findInLabels(const RgbdView& view,
   if (!upright || !view.frame.labels) return {};
   std::vector<PicturedPerson> people;
   const auto masks = personMasks(*upright, *view.frame.labels, classes);
+  people.reserve(masks.size());
   for (const auto& [mask, box] : masks) people.push_back({.box = {box, 1.0}, .mask = &mask});
   return located(view, *upright, people, nullptr);
 }
