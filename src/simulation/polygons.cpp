@@ -93,8 +93,8 @@ std::vector<double> eventsOf(const std::vector<Edge>& edges) {
   }
   std::ranges::sort(heights);
   constexpr double kSame = 1e-7;
-  const auto spare = std::ranges::unique(heights, [](double a, double b) { return b - a < kSame; });
-  heights.erase(spare.begin(), spare.end());
+  const auto isSame = [](double a, double b) { return b - a < kSame; };
+  heights.erase(std::unique(heights.begin(), heights.end(), isSame), heights.end());
   return heights;
 }
 

@@ -17,8 +17,8 @@
 namespace prodomos::perception {
 
 struct EntityMemoryConfig {
-  double certainty = 2.0;           ///< log-odds from which on a thing is written to the map
-  double doubt = 0.0;               ///< log-odds below which it is given up again
+  double certainty = 2.2;           ///< log-odds from which on a thing is in the map: more than one image alone can add
+  double doubt = 1.2;               ///< log-odds below which it is given up again
   double prior = -1.0;              ///< log-odds before anything was seen
   double correlation = 0.5;         ///< of the errors of two readings taken from one place, 0 … 1
   double lookSpacing = 0.3;         ///< metres that the robot moves until a reading counts as a new look
