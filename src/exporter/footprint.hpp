@@ -18,8 +18,8 @@ struct DoorPlan {
 };
 DoorPlan doorPlan(const map::Door& door);
 
-/// What an entity looks like from above, as lines in the map frame: a door's leaf and swing, a staircase's treads with an arrow
-/// uphill, a human as a circle with a nose, a box or patch as its outline.
+/// What an entity looks like from above, as lines in the map frame: a door's leaf and swing, a staircase's treads with
+/// an arrow uphill, a human as a circle with a nose, a box or patch as its outline.
 std::vector<Polyline> footprint(const map::Entity& entity, const geometry::Pose3& T_map_submap);
 
 }  // namespace prodomos::exporter
