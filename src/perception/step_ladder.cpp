@@ -73,6 +73,7 @@ std::pair<int, int> supported(const std::vector<int>& ks, const std::vector<Trea
   std::map<int, double> support;
   for (std::size_t i = 0; i < ks.size(); ++i) support[ks[i]] += treads[i].weight;
   std::vector<double> sorted;
+  sorted.reserve(support.size());
   for (const auto& [k, weight] : support) sorted.push_back(weight);
   std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2));
   const double least = kLeastSupport * sorted[sorted.size() / 2];

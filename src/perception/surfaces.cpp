@@ -144,7 +144,7 @@ struct FastPlane {
   bool has(const Cloud& cloud, std::size_t i) const {
     const float distance = x * cloud.x[i] + y * cloud.y[i] + z * cloud.z[i] - offset;
     const float cosine = x * cloud.normalX[i] + y * cloud.normalY[i] + z * cloud.normalZ[i];
-    return (std::abs(distance) < cloud.tolerance[i]) & (cosine > cloud.leastCosine[i]);
+    return std::abs(distance) < cloud.tolerance[i] && cosine > cloud.leastCosine[i];
   }
   /// m² of every `stride`-th point on it.
   float areaOn(const Cloud& cloud, std::size_t stride) const {

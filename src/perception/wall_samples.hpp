@@ -29,8 +29,8 @@ int columns(double metres);
 
 double median(std::vector<float>& values);
 
-/// Known offsets in a box, one a block.
-std::vector<float> offsetsIn(const RectifiedWall& wall, const Box& box);
+/// Known offsets in a box, one a block; of it what the wall has.
+std::vector<float> offsetsIn(const RectifiedWall& wall, const Box& unclipped);
 
 /// Where the surface lies in one column of blocks: median.
 struct ProfilePoint {
@@ -50,7 +50,7 @@ struct Color {
 double difference(const Color& a, const Color& b);
 
 /// Colours of visible pixels of a box, every `step`th.
-std::vector<cv::Vec3b> colorsIn(const RectifiedWall& wall, const Box& box, int step);
+std::vector<cv::Vec3b> colorsIn(const RectifiedWall& wall, const Box& unclipped, int step);
 
 /// None of fewer than `least`.
 std::optional<Color> medianColor(const std::vector<cv::Vec3b>& colors, std::size_t least);
