@@ -118,8 +118,35 @@ const GraphRefiner::Vertex& GraphRefiner::vertexOf(base::SubMapId id) const {
   return *found;
 }
 
+const map::Node& GraphRefiner::node(base::SubMapId id) const {
+  return vertexOf(id).node;
+}
+
 const geometry::Pose3& GraphRefiner::T_map_submap(base::SubMapId id) const {
-  return vertexOf(id).node.T_map_submap;
+  return node(id).T_map_submap;
+}
+
+std::vector<base::SubMapId> GraphRefiner::nodesOf(base::SessionId session) const {
+  std::vector<base::SubMapId> ids;
+  for (const auto& [node, T_map_told, isTold] : vertices_) {
+    if (node.session == session && node.kind == map::SubMapKind::kObserved) ids.push_back(node.id);
+  }
+  return ids;
+}
+
+std::vector<map::Node> GraphRefiner::nearest(base::SubMapId id, double reach, std::size_t most) const {
+  const auto& middle = node(id);
+  const auto distanceTo = [&middle](const map::Node& other) {
+    return (other.T_map_submap.translation() - middle.T_map_submap.translation()).norm();
+  };
+  std::vector<map::Node> near;
+  for (const auto otherId : nodesOf(middle.session)) {
+    const auto& other = node(otherId);
+    if (otherId != id && other.floor == middle.floor && distanceTo(other) <= reach) near.push_back(other);
+  }
+  std::ranges::stable_sort(near, {}, distanceTo);
+  if (near.size() > most) near.resize(most);
+  return near;
 }
 
 void GraphRefiner::add(const map::Node& node, const std::optional<map::Edge>& edge) {
@@ -141,7 +168,7 @@ void GraphRefiner::close(const map::SubMap& finished) {
   if (!findsLoops_) return;
 
   const auto copyOf = [&]<typename Layer>(std::shared_ptr<const Layer>& copy) {
-    const auto* layer = dynamic_cast<const Layer*>(finished.findLayer(Layer::kTypeId));
+    const auto* layer = finished.findLayer<Layer>();
     if (layer != nullptr) copy = std::make_shared<Layer>(*layer);
   };
   localization::MatchedLayers layers;

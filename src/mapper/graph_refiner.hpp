@@ -32,7 +32,12 @@ class GraphRefiner {
   /// Moves all sub-maps of a session, as a whole.
   void move(base::SessionId session, const geometry::Pose3& T_after_before);
 
+  const map::Node& node(base::SubMapId id) const;
   const geometry::Pose3& T_map_submap(base::SubMapId id) const;
+  /// Observed sub-maps of the session, by id.
+  std::vector<base::SubMapId> nodesOf(base::SessionId session) const;
+  /// Others of the same session and floor whose origins are no farther than `reach`: the nearest first, at most `most`.
+  std::vector<map::Node> nearest(base::SubMapId id, double reach, std::size_t most) const;
   /// A place to the right of all sub-maps, for a session that has not met them yet; the origin where there are none.
   geometry::Pose3 T_map_beside() const;
   /// Does a chain of edges lead from this session to another one?

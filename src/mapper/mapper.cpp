@@ -9,6 +9,7 @@
 #include "mapper/graph_refiner.hpp"
 #include "mapper/localizer.hpp"
 #include "mapper/running_submap.hpp"
+#include "mapper/surroundings.hpp"
 
 #include <Eigen/LU>
 
@@ -90,6 +91,8 @@ class Mapper::Impl {
     return (session_.T_map_travel * T_travel_body).translation().z() - clearance_;
   }
 
+  /// The floor's where the robot is level with it, else that of the ground.
+  double floorHeightAt(const geometry::Pose3& T_travel_body) const;
   /// Height of the floor below the robot, in the running sub-map.
   double floorBelow() const;
   perception::EntityMemory::SubMapPoses submapPoses() const {
@@ -97,6 +100,8 @@ class Mapper::Impl {
   }
 
   void refine();
+  /// For doorways, in a finished sub-map and what lies about it.
+  void lookAround(base::SubMapId submap);
 
   void use(const sensors::Reading& reading);
   void skip(const std::string& reason) { ++report.skippedByReason[reason]; }
@@ -117,6 +122,7 @@ class Mapper::Impl {
   std::deque<Waiting> waiting_;
   std::vector<std::int64_t> waitingWhenInterrupted_;
   GraphRefiner refiner_;
+  Surroundings surroundings_;
   std::unique_ptr<perception::Perception> perception_;
   std::optional<RunningSubMap> running_;  // none until the first reading is placed
   double clearance_ = 0.0;                // height of the body above the floor
@@ -130,7 +136,8 @@ Mapper::Impl::Impl(map::MapStore& store, const MapperConfig& config, const senso
       debug_(debug),
       localizer_(config, log),
       floors_(config.floor.leastHeight),
-      refiner_(loopsOf(config, localizer_), store) {
+      refiner_(loopsOf(config, localizer_), store),
+      surroundings_(store, refiner_) {
   const auto before = store.view();
   const auto& sessions = before.sessions();
   if (sessions.empty()) {
@@ -251,8 +258,7 @@ void Mapper::Impl::integrate(const sensors::Reading& reading) {
                                   .T_submap_body = running_->T_submap_body(T_travel_lastBody_),
                                   .velocity = localizer_.velocity()};
   if (!running_->integrate(placed, T_travel_lastBody_, times)) return skip(nobodyTakes(reading));
-  perception_->perceive({placed, running_->submap(), floorBelow()}, submapPoses(), times);
-  report.notLookedAt = perception_->skipped();
+  perception_->perceive({placed, running_->submap(), floorBelow()}, submapPoses(), times, report.notLookedAt);
   use(reading);
   session_.end = reading.time;
 }
@@ -305,7 +311,8 @@ void Mapper::Impl::standUpright(const geometry::Pose3& T_upright_travel) {
 /// Finishes the running sub-map, and begins the next one below the robot.
 void Mapper::Impl::passOn(map::EdgeKind kind, const geometry::Pose3& T_travel_body, base::Time time) {
   refine();
-  perception_->finish(running_->submap(), submapPoses(), times);
+  perception_->finish(running_->submap());
+  lookAround(running_->node().id);
   const auto node = nodeBelow(T_travel_body, time);
   const auto edge = edgeBetween(*running_, node, kind);
   const auto finished = std::exchange(running_, RunningSubMap(node, edge, config_.layers));
@@ -321,12 +328,15 @@ void Mapper::Impl::passOn(map::EdgeKind kind, const geometry::Pose3& T_travel_bo
   commit(std::move(change));
 }
 
+double Mapper::Impl::floorHeightAt(const geometry::Pose3& T_travel_body) const {
+  const double height = heightAt(T_travel_body);
+  const double floorHeight = floors_.current().height;
+  return std::abs(height - floorHeight) < FloorTracker::kLevelTolerance ? floorHeight : height;
+}
+
 double Mapper::Impl::floorBelow() const {
-  const double height = heightAt(T_travel_lastBody_);
-  const auto& floor = floors_.current();
-  const bool isLevel = std::abs(height - floor.height) < FloorTracker::kLevelTolerance;
   const geometry::Pose3 T_map_submap = session_.T_map_travel * running_->node().T_travel_submap;
-  return (isLevel ? floor.height : height) - T_map_submap.translation().z();
+  return floorHeightAt(T_travel_lastBody_) - T_map_submap.translation().z();
 }
 
 /// The running sub-map is complete: where it shows what was seen before, all poses become better.
@@ -336,16 +346,20 @@ void Mapper::Impl::refine() {
   running_->refine(refiner_.T_map_submap(running_->node().id));
 }
 
+void Mapper::Impl::lookAround(base::SubMapId submap) {
+  if (!config_.perception.enabled || !config_.perception.doorways.enabled) return;
+  const auto timing = times.measure("doorways");
+  const auto around = surroundings_.of(submap, running_->submap());
+  if (around) perception_->lookAround(*around, submapPoses());
+}
+
 map::Node Mapper::Impl::nodeBelow(const geometry::Pose3& T_travel_body, base::Time time) const {
-  const double height = heightAt(T_travel_body);
-  const auto& floor = floors_.current();
-  const bool isLevel = std::abs(height - floor.height) < FloorTracker::kLevelTolerance;
   map::Node node;
   node.id = refiner_.newNodeId();
   node.session = session_.id;
-  node.floor = floor.number;
+  node.floor = floors_.current().number;
   const geometry::Pose3 T_map_unrefined =
-      geometry::toPose3(geometry::toPose2(session_.T_map_travel * T_travel_body), isLevel ? floor.height : height);
+      geometry::toPose3(geometry::toPose2(session_.T_map_travel * T_travel_body), floorHeightAt(T_travel_body));
   node.T_travel_submap = session_.T_map_travel.inverse() * T_map_unrefined;
   node.T_map_submap = T_map_unrefined;
   if (running_) {
@@ -387,7 +401,9 @@ void Mapper::Impl::finish(const sensors::EndOfLog& end) {
     refine();
     refiner_.settle();
     running_->refine(refiner_.T_map_submap(running_->node().id));
-    perception_->finish(running_->submap(), submapPoses(), times);
+    perception_->finish(running_->submap());
+    // Once more everywhere: by now the neighbours are known on all sides, and all poses are the best.
+    for (const auto submap : refiner_.nodesOf(session_.id)) lookAround(submap);
   }
   const auto last = std::exchange(running_, std::nullopt);
   if (last) last->addTo(change);
@@ -436,7 +452,6 @@ void Mapper::Impl::load(const map::Checkpoint& checkpoint) {
   in >> session_.distance >> clearance_;
   refiner_.load(in);
   perception_->load(in);
-  report.notLookedAt = perception_->skipped();
   running_.emplace(RunningSubMap::load(in, config_.layers));
 }
 

@@ -30,6 +30,7 @@ void Report::save(base::ByteWriter& out) const {
   out << read << used << faultCount << submaps << distance << lost;
   mapper::save(out, usedByKind);
   mapper::save(out, skippedByReason);
+  mapper::save(out, notLookedAt);
   out << static_cast<std::uint64_t>(faults.size());
   for (const auto& fault : faults) out << fault;
 }
@@ -38,6 +39,7 @@ void Report::load(base::ByteReader& in) {
   in >> read >> used >> faultCount >> submaps >> distance >> lost;
   mapper::load(in, usedByKind);
   mapper::load(in, skippedByReason);
+  mapper::load(in, notLookedAt);
   faults.clear();
   for (auto left = in.read<std::uint64_t>(); left > 0; --left) faults.push_back(in.read<std::string>());
 }

@@ -33,7 +33,7 @@ bool RunningSubMap::isLeftBy(const map::PlacedReading& placed, const SubMapConfi
   wayAtLastLook_ = way;
   turnAtLastLook_ = turned_;
   if (seenAtBegin_) return seenAtBegin_->overlap(placed) < config.leastOverlap;
-  const auto* grid = dynamic_cast<const map::OccupancyGrid*>(submap_.findLayer(map::OccupancyGrid::kTypeId));
+  const auto* grid = submap_.findLayer<map::OccupancyGrid>();
   if (grid != nullptr) seenAtBegin_.emplace(*grid);
   return false;
 }

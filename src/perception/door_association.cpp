@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perception/door_association.hpp"
 
+#include "perception/numeric.hpp"
+
 #include <Eigen/Cholesky>
 
 #include <algorithm>
@@ -19,10 +21,6 @@ constexpr double kGate = 15.1;          // chi² of 5 degrees of freedom, 99 %
 constexpr double kRecess = 0.1;         // metres that a leaf stands off the middle of its opening
 constexpr double kTallest = 4.0;        // metres
 constexpr double kFarthest = 1e4;       // metres from the sub-map's origin
-
-double square(double value) {
-  return value * value;
-}
 
 /// From a to b: along a's normal, along the wall, up, turn of the lines.
 Vector4 offsetBetween(const DoorPlace& a, const DoorPlace& b) {
@@ -83,9 +81,10 @@ bool standInOnePlace(const DoorPlace& a, const DoorPlace& b) {
 
 bool isPossible(const DoorSighting& sighting, const EntityMemoryConfig& config) {
   const auto& door = sighting.door;
+  const double greatestWidth = door.hasLeaf ? config.greatestDoorWidth : config.greatestOpening;
   return geometry::isFinite(sighting.T_submap_door) && isCovariance(sighting.covariance) &&
          sighting.T_submap_door.translation().norm() < kFarthest && door.width >= config.leastDoorWidth &&
-         door.width <= config.greatestDoorWidth && door.height >= 0.0 && door.height <= kTallest &&
+         door.width <= greatestWidth && door.height >= 0.0 && door.height <= kTallest &&
          std::isfinite(sighting.widthSigma) && std::isfinite(sighting.evidence) &&
          std::isfinite(sighting.hingeEvidence);
 }

@@ -4,6 +4,7 @@
 
 #include "prodomos/sensors/camera.hpp"
 
+#include "perception/numeric.hpp"
 #include "perception/wall_samples.hpp"
 
 #include <algorithm>

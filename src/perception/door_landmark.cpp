@@ -3,6 +3,7 @@
 #include "perception/door_landmark.hpp"
 
 #include "perception/door_association.hpp"
+#include "perception/numeric.hpp"
 #include "perception/robust_mean.hpp"
 
 #include <algorithm>
@@ -21,10 +22,6 @@ constexpr double kClearlyBetter = 1.5;
 /// Log-odds from which on a side is told, and a leaf is believed.
 constexpr double kTold = 0.3;
 constexpr double kLeafTold = 0.5;
-
-double square(double value) {
-  return value * value;
-}
 
 void flip(DoorLook& look) {
   look.pose_in_submap.w() = geometry::normalizeAngle(look.pose_in_submap.w() + std::numbers::pi);

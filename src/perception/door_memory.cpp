@@ -122,6 +122,7 @@ void DoorMemory::addFromGrid(const Frames& frames, std::span<const DoorSighting>
     look.ofGrid = true;
     fuse(look, possible[i], geometry::yaw(frames.T_submap_other(door.submap) * poseOf(door.pose_in_submap)), config_);
     door.noteDetection(possible[i].time);
+    door.firstSeen = std::min(door.firstSeen, possible[i].since.value_or(door.firstSeen));
     touched.push_back(*landmarkOf[i]);
   }
   update(frames, touched);
@@ -242,11 +243,8 @@ void DoorMemory::see(DoorLandmark& door, const Frames& frames, const RgbdView& v
   if (isDetected && isClear && appearance.filled < kHardlyFilled * appearance.known()) takeBackLeaf(door, frames, view);
   const bool isRefuted = appearance.hasNoWall && appearance.through >= kClearlyThrough;
   if (isDetected || !(isRefuted || isWellSeen(appearance))) return;
-  auto& look = lookFrom(door.looks, frames.submap(), view.T_submap_camera.translation(), config_.lookSpacing);
-  look.evidence -= config_.doorMiss * (isRefuted ? kNoWall : 1.0);
-  ++look.misses;
-  door.logOdds = logOddsOf(door.looks, config_);
-  door.hasChanged = true;
+  countMiss(door, frames.submap(), view.T_submap_camera.translation(), config_.doorMiss * (isRefuted ? kNoWall : 1.0),
+            config_);
 }
 
 }  // namespace prodomos::perception

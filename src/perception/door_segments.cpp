@@ -89,10 +89,6 @@ bool isGreatest(const std::int16_t* at, std::ptrdiff_t step, int side) {
   return true;
 }
 
-bool isVisible(Seen seen) {
-  return seen == Seen::kWall || seen == Seen::kColor;
-}
-
 /// Keeps what is at least `contrast` and greatest across the edge. Where the wall is not seen, there is no edge.
 cv::Mat thinnedAcross(const cv::Mat& differences, const RectifiedWall& wall, const std::vector<int>& sides,
                       int contrast) {

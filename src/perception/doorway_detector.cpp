@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prodomos/perception/doorway_detector.hpp"
 
+#include "perception/doorway_lines.hpp"
 #include "perception/doorway_narrows.hpp"
 #include "perception/doorway_raster.hpp"
 
@@ -13,7 +14,9 @@ namespace prodomos::perception {
 namespace {
 
 constexpr std::size_t kMostDirections = 4;
-constexpr double kApart = 0.5;  // metres; nearer ones are one doorway, seen in two directions or two faces of a wall
+constexpr double kBeyond = 0.5;  // metres
+constexpr double kNear = 0.3;    // metres
+constexpr double kApart = 0.5;   // metres; nearer ones are one doorway, seen in two directions or two faces of a wall
 
 DoorSighting sightingOf(const doorways::Opening& opening) {
   DoorSighting sighting;
@@ -49,6 +52,14 @@ std::vector<DoorSighting> findDoorways(const map::OccupancyGrid& grid, const Eig
   for (const auto& raster : doorways::rastersAlongWalls(grid, kMostDirections)) {
     doorways::appendOpenings(raster, config, openings);
     doorways::appendOpenings(raster.turned(), config, openings);
+  }
+  for (const auto& line : doorways::criticalLines(grid, config)) {
+    const doorways::Raster raster(grid, line.direction(), line.middle(), config.leastDetour + kBeyond);
+    std::vector<doorways::Opening> there;
+    doorways::appendOpeningsAt(raster, config, there);
+    std::ranges::copy_if(there, std::back_inserter(openings), [&line](const doorways::Opening& opening) {
+      return (opening.middle - line.middle()).norm() < kNear;
+    });
   }
   std::stable_sort(openings.begin(), openings.end(),
                    [](const auto& a, const auto& b) { return a.evidence > b.evidence; });

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perception/doorway_narrows.hpp"
 
+#include "perception/numeric.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -66,7 +68,8 @@ struct JambPair {
 
 class NarrowSearch {
  public:
-  NarrowSearch(const Raster& raster, const DoorwayDetectorConfig& config) : raster_(raster), config_(config) {}
+  NarrowSearch(const Raster& raster, const DoorwayDetectorConfig& config, bool isAskew = false)
+      : raster_(raster), config_(config), isAskew_(isAskew) {}
 
   std::vector<Narrow> narrows() const;
   std::optional<Opening> judge(const Narrow& narrow) const;
@@ -78,6 +81,7 @@ class NarrowSearch {
   Beside besideOf(const Jamb& jamb, int row, int onward) const;
   int neededWall(const Narrow& narrow) const;
   double wallAt(const Jamb& jamb, int most) const;
+  double wallAlong(const Jamb& jamb, int most) const;
   int lineFrom(int u, int v, int du, int dv, int most) const;
   bool isOneWall(const JambPair& jambs, const Narrow& narrow) const;
   bool isWallAndLeaf(const JambPair& jambs, const Narrow& narrow) const;
@@ -87,6 +91,7 @@ class NarrowSearch {
 
   const Raster& raster_;
   const DoorwayDetectorConfig& config_;
+  bool isAskew_;  // rows lie along a gap, and not along walls
 };
 
 std::vector<Narrow> NarrowSearch::narrows() const {
@@ -129,7 +134,7 @@ Jamb NarrowSearch::jambAt(const Narrow& narrow, double face, int inward) const {
   while (jamb.rows() <= most && isJamb(jamb.first - 1)) --jamb.first;
   while (jamb.rows() <= most && isJamb(jamb.last + 1)) ++jamb.last;
   jamb.beside = {besideOf(jamb, jamb.first, -1), besideOf(jamb, jamb.last, 1)};
-  jamb.wall = wallAt(jamb, neededWall(narrow));
+  jamb.wall = isAskew_ ? wallAlong(jamb, neededWall(narrow)) : wallAt(jamb, neededWall(narrow));
   return jamb;
 }
 
@@ -170,6 +175,24 @@ double NarrowSearch::wallAt(const Jamb& jamb, int most) const {
   return longest * raster_.step();
 }
 
+/// Along the opening, or up to 27 degrees askew.
+double NarrowSearch::wallAlong(const Jamb& jamb, int most) const {
+  constexpr int kMissing = 2;
+  int longest = 0;
+  for (const double slope : {-0.5, -0.375, -0.25, -0.125, 0.0, 0.125, 0.25, 0.375, 0.5}) {
+    for (int v = jamb.first - 1; v <= jamb.last; ++v) {
+      int length = 0;
+      for (int i = 0; i < most && i - length <= kMissing; ++i) {
+        const int x = jamb.face + i * jamb.inward;
+        const int y = v + static_cast<int>(std::lround(slope * i));
+        if (raster_.isOccupied(x, y) || raster_.isOccupied(x, y + 1)) length = i + 1;
+      }
+      longest = std::max(longest, length);
+    }
+  }
+  return longest * raster_.step();
+}
+
 /// Cells of wall in a line two cells wide, which walls of other directions soon leave; up to the length that is needed.
 int NarrowSearch::lineFrom(int u, int v, int du, int dv, int most) const {
   constexpr int kMissing = 2;
@@ -198,6 +221,7 @@ bool NarrowSearch::isOneWall(const JambPair& jambs, const Narrow& narrow) const 
   const auto [lessWall, moreWall] = std::minmax(jambs.left.wall, jambs.right.wall);
   const double needed = neededWall(narrow) * raster_.step();
   if (lessWall >= needed) return true;
+  if (isAskew_) return false;
   const bool isAlike = std::abs(jambs.left.first - jambs.right.first) <= 1 &&
                        std::abs(jambs.left.last - jambs.right.last) <= 1 && jambs.count(Beside::kOpen) == 4;
   return isAlike && moreWall >= needed && lessWall >= kPillar;
@@ -242,9 +266,7 @@ double NarrowSearch::spaceFrom(const Narrow& narrow, int row, int onward) const 
     lengths.push_back(length);
   }
   if (lengths.empty()) return 0.0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle * raster_.step();
+  return median(std::move(lengths)) * raster_.step();
 }
 
 /// Whether free cells lead from before the narrow to behind it, near by and not through it.
@@ -290,7 +312,7 @@ std::optional<Opening> NarrowSearch::judge(const Narrow& narrow) const {
   const JambPair jambs{jambAt(narrow, narrow.left, -1), jambAt(narrow, narrow.right, 1)};
   const double width = narrow.right - narrow.left;
   const bool isPlain = isOneWall(jambs, narrow);
-  if (!isPlain && !isWallAndLeaf(jambs, narrow)) return std::nullopt;
+  if (!isPlain && (isAskew_ || !isWallAndLeaf(jambs, narrow))) return std::nullopt;
   const int first = isPlain ? std::min(jambs.left.first, jambs.right.first) : jambs.thinner().first;
   const int last = isPlain ? std::max(jambs.left.last, jambs.right.last) : jambs.thinner().last;
   if (spaceFrom(narrow, first, -1) < cells(config_.leastSpace) * raster_.step() ||
@@ -310,6 +332,13 @@ std::optional<Opening> NarrowSearch::judge(const Narrow& narrow) const {
 
 void appendOpenings(const Raster& raster, const DoorwayDetectorConfig& config, std::vector<Opening>& openings) {
   const NarrowSearch search(raster, config);
+  for (const auto& narrow : search.narrows()) {
+    if (const auto opening = search.judge(narrow)) openings.push_back(*opening);
+  }
+}
+
+void appendOpeningsAt(const Raster& raster, const DoorwayDetectorConfig& config, std::vector<Opening>& openings) {
+  const NarrowSearch search(raster, config, true);
   for (const auto& narrow : search.narrows()) {
     if (const auto opening = search.judge(narrow)) openings.push_back(*opening);
   }

@@ -25,4 +25,6 @@ struct Opening {
 /// perpendicular wall and the ends of corridors that open into halls have in common, and corridors do not have.
 void appendOpenings(const Raster& raster, const DoorwayDetectorConfig& config, std::vector<Opening>& openings);
 
+void appendOpeningsAt(const Raster& raster, const DoorwayDetectorConfig& config, std::vector<Opening>& openings);
+
 }  // namespace prodomos::perception::doorways

@@ -121,11 +121,20 @@ std::vector<Raster> rastersAlongWalls(const map::OccupancyGrid& grid, std::size_
   return rasters;
 }
 
-Raster::Raster(const map::OccupancyGrid& grid, double direction)
+Raster::Raster(double direction, double step)
     : direction_(direction),
-      step_(grid.resolution()),
+      step_(step),
       along_(std::cos(direction), std::sin(direction)),
-      across_(-std::sin(direction), std::cos(direction)) {
+      across_(-std::sin(direction), std::cos(direction)) {}
+
+Raster::Raster(const map::OccupancyGrid& grid, double direction, const Eigen::Vector2d& middle, double reach)
+    : Raster(direction, grid.resolution()) {
+  origin_ = middle - reach * (along_ + across_);
+  width_ = height_ = 2 * static_cast<int>(reach / step_) + 1;
+  fill(grid);
+}
+
+Raster::Raster(const map::OccupancyGrid& grid, double direction) : Raster(direction, grid.resolution()) {
   const auto box = grid.knownBox();
   if (box.empty()) return;
   Eigen::Array2d least = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
@@ -141,6 +150,10 @@ Raster::Raster(const map::OccupancyGrid& grid, double direction)
   origin_ = least.x() * along_ + least.y() * across_;
   width_ = static_cast<int>((most.x() - least.x()) / step_) + 2;
   height_ = static_cast<int>((most.y() - least.y()) / step_) + 2;
+  fill(grid);
+}
+
+void Raster::fill(const map::OccupancyGrid& grid) {
   states_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   // In 1/65536 of a cell: no division for each of some hundred thousand cells.
   constexpr double kFraction = 65536.0;

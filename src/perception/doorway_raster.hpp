@@ -16,6 +16,8 @@ class Raster {
  public:
   /// `direction` of the rows in the grid's frame, radians.
   Raster(const map::OccupancyGrid& grid, double direction);
+  /// Of a square alone: its middle in the grid's frame, and metres from there to its sides.
+  Raster(const map::OccupancyGrid& grid, double direction, const Eigen::Vector2d& middle, double reach);
 
   /// The same with rows along what were columns.
   Raster turned() const;
@@ -40,6 +42,8 @@ class Raster {
 
  private:
   Raster() = default;
+  Raster(double direction, double step);
+  void fill(const map::OccupancyGrid& grid);
   std::size_t index(int u, int v) const {
     return static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u);
   }

@@ -32,6 +32,7 @@ void describe(base::ConfigVisitor& visitor, EntityMemoryConfig& config) {
   visitor.key("forgetting", config.forgetting, "s", {1.0, 1e6}, "after which what was never sure is forgotten");
   visitor.key("least_door_width", config.leastDoorWidth, "m", {0.1, 5.0}, "narrower ones are none");
   visitor.key("greatest_door_width", config.greatestDoorWidth, "m", {0.5, 10.0}, "wider ones are none");
+  visitor.key("greatest_opening", config.greatestOpening, "m", {0.5, 10.0}, "the same of doorways without a leaf");
   visitor.endSection();
 }
 
@@ -41,6 +42,14 @@ bool mayBeWritten(const DoorLandmark& door) {
   return !door.isRivalled;
 }
 bool mayBeWritten(const StaircaseLandmark& /*stairs*/) {
+  return true;
+}
+
+/// What a grid shows is not of a moment, and is asked for again in the end.
+bool mayBeForgotten(const DoorLandmark& door) {
+  return std::ranges::none_of(door.looks, [](const DoorLook& look) { return look.ofGrid && look.sightings > 0; });
+}
+bool mayBeForgotten(const StaircaseLandmark& /*stairs*/) {
   return true;
 }
 
@@ -127,7 +136,8 @@ class EntityMemory::Implementation {
       }
     }
     std::erase_if(landmarks, [this](const AnyLandmark& landmark) {
-      return !landmark.id && base::seconds(now_ - landmark.lastDetected) > config_.forgetting;
+      return !landmark.id && mayBeForgotten(landmark) &&
+             base::seconds(now_ - landmark.lastDetected) > config_.forgetting;
     });
   }
 

@@ -140,6 +140,17 @@ double logOddsOf(const std::vector<AnyLook>& looks, const EntityMemoryConfig& co
   return sum;
 }
 
+/// A look at where it should be, and is not: that much log-odds speak against it.
+template <typename AnyLandmark>
+void countMiss(AnyLandmark& landmark, base::SubMapId submap, const Eigen::Vector3d& sensor_in_submap, double evidence,
+               const EntityMemoryConfig& config) {
+  auto& look = lookFrom(landmark.looks, submap, sensor_in_submap, config.lookSpacing);
+  look.evidence -= evidence;
+  ++look.misses;
+  landmark.logOdds = logOddsOf(landmark.looks, config);
+  landmark.hasChanged = true;
+}
+
 /// Of (x, y, z, yaw) of a sub-map against another one, for a thing `reach` metres from the origin.
 Eigen::Matrix4d uncertaintyBetween(const EntityMemoryConfig& config, double reach);
 

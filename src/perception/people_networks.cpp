@@ -37,12 +37,12 @@ cv::dnn::Net darknet(const std::filesystem::path& folder, const std::string& nam
   return loaded({layers, weights}, [&] { return cv::dnn::readNetFromDarknet(layers.string(), weights.string()); });
 }
 
+}  // namespace
+
 double overlap(const cv::Rect2d& a, const cv::Rect2d& b) {
   const double common = (a & b).area();
   return common / (a.area() + b.area() - common);
 }
-
-}  // namespace
 
 std::vector<PersonBox> withoutDoubles(std::vector<PersonBox> boxes, double most) {
   std::ranges::stable_sort(boxes, std::greater{}, &PersonBox::score);

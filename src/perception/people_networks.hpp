@@ -19,6 +19,9 @@ struct PersonBox {
   double score = 0.0;
 };
 
+/// Intersection over union.
+double overlap(const cv::Rect2d& a, const cv::Rect2d& b);
+
 struct ImageJoint {
   cv::Point2d pixel;
   double score = 0.0;  ///< 0: not seen

@@ -17,10 +17,6 @@ constexpr base::Duration kSameImage = std::chrono::milliseconds(20);
 /// A frame that comes this much too early for its rate is taken all the same: clocks jitter.
 constexpr double kEarly = 0.8;
 
-const map::OccupancyGrid* gridOf(const map::SubMap& submap) {
-  return dynamic_cast<const map::OccupancyGrid*>(submap.findLayer(map::OccupancyGrid::kTypeId));
-}
-
 bool hasDepth(const sensors::RgbdFrame& frame) {
   return std::ranges::any_of(frame.depth.pixels(), [](float depth) { return depth > 0.0F && std::isfinite(depth); });
 }
@@ -43,13 +39,14 @@ class Perception::Implementation {
         detector_(config.people),
         tracker_(config.people, session, first.track.value, [this] { return newId(); }) {}
 
-  void perceive(const Place& place, const EntityMemory::SubMapPoses& poses, base::StageTimes& times);
+  void perceive(const Place& place, const EntityMemory::SubMapPoses& poses, base::StageTimes& times,
+                std::map<std::string, std::int64_t>& notLookedAt);
   bool takeSideFile(const sensors::Reading& reading, const map::SubMap& submap);
-  void finish(const map::SubMap& submap, const EntityMemory::SubMapPoses& poses, base::StageTimes& times);
+  void lookAround(const Surroundings& around, const EntityMemory::SubMapPoses& poses);
+  void finish(const map::SubMap& submap) { settleLast(submap); }
   void enter(const geometry::Pose3& T_submap_before);
   std::vector<map::Entity> entities() const;
   void addTo(map::MapChange& change);
-  const std::map<std::string, std::int64_t>& skipped() const { return skipped_; }
   void save(base::ByteWriter& out) const;
   void load(base::ByteReader& in);
 
@@ -70,7 +67,7 @@ class Perception::Implementation {
   bool seesPeople() const { return hasNetworksOrLabels() || hasSideFile_; }
 
   void perceiveFrame(const Place& place, const sensors::RgbdFrame& frame, const EntityMemory::SubMapPoses& poses,
-                     base::StageTimes& times);
+                     base::StageTimes& times, std::map<std::string, std::int64_t>& notLookedAt);
   void findDoorsAndStairs(const RgbdView& view, base::SubMapId submap, const EntityMemory::SubMapPoses& poses,
                           base::StageTimes& times);
   void findPeople(const RgbdView& view, const Place& place);
@@ -89,14 +86,14 @@ class Perception::Implementation {
   PersonTracker tracker_;
   bool hasSideFile_ = false;
   std::optional<Frame> last_;  // of the running sub-map; none when it is finished
-  std::map<std::string, std::int64_t> skipped_;
 };
 
 void Perception::Implementation::perceive(const Place& place, const EntityMemory::SubMapPoses& poses,
-                                          base::StageTimes& times) {
+                                          base::StageTimes& times, std::map<std::string, std::int64_t>& notLookedAt) {
   if (!config_.enabled) return;
   const auto& data = place.placed.reading.data;
-  if (const auto* frame = std::get_if<sensors::RgbdFrame>(&data)) perceiveFrame(place, *frame, poses, times);
+  if (const auto* frame = std::get_if<sensors::RgbdFrame>(&data))
+    perceiveFrame(place, *frame, poses, times, notLookedAt);
   const auto* scan = std::get_if<sensors::LaserScan>(&data);
   const auto time = place.placed.reading.time;
   if (scan != nullptr && config_.people.enabled && config_.people.fromLaser && !seesPeople() && tracker_.wants(time)) {
@@ -107,21 +104,22 @@ void Perception::Implementation::perceive(const Place& place, const EntityMemory
 }
 
 void Perception::Implementation::perceiveFrame(const Place& place, const sensors::RgbdFrame& frame,
-                                               const EntityMemory::SubMapPoses& poses, base::StageTimes& times) {
+                                               const EntityMemory::SubMapPoses& poses, base::StageTimes& times,
+                                               std::map<std::string, std::int64_t>& notLookedAt) {
   if (debug_ != nullptr) debug_->beginFrame(frames_);
   ++frames_;
   if (!hasDepth(frame)) {
-    ++skipped_["an image without depth"];
+    ++notLookedAt["an image without depth"];
     return;
   }
   if (!frame.color.empty() && !sameSize(frame)) {
-    ++skipped_["an image whose colour and depth differ in size"];
+    ++notLookedAt["an image whose colour and depth differ in size"];
     return;
   }
   if (frame.color.empty()) {
-    ++skipped_["closed doors and people: an image without colour"];
+    ++notLookedAt["closed doors and people: an image without colour"];
   } else if (config_.people.enabled && !seesPeople()) {
-    ++skipped_["people: no networks to look at an image (--models)"];
+    ++notLookedAt["people: no networks to look at an image (--models)"];
   }
   const RgbdView view{.time = place.placed.reading.time,
                       .frame = frame,
@@ -192,21 +190,17 @@ bool Perception::Implementation::takeSideFile(const sensors::Reading& reading, c
 
 void Perception::Implementation::follow(const map::SubMap& submap, base::Time time,
                                         const std::vector<PersonSighting>& sightings) {
-  tracker_.add(submap.node.id, time, sightings, gridOf(submap));
+  tracker_.add(submap.node.id, time, sightings, submap.findLayer<map::OccupancyGrid>());
 }
 
-void Perception::Implementation::finish(const map::SubMap& submap, const EntityMemory::SubMapPoses& poses,
-                                        base::StageTimes& times) {
-  settleLast(submap);
-  const auto* grid = gridOf(submap);
-  if (!config_.enabled || !config_.doorways.enabled || grid == nullptr) return;
-  const auto timing = times.measure("doorways");
-  auto doorways = findDoorways(*grid, Eigen::Vector2d::Zero(), config_.doorways);
+void Perception::Implementation::lookAround(const Surroundings& around, const EntityMemory::SubMapPoses& poses) {
+  if (!config_.enabled || !config_.doorways.enabled) return;
+  auto doorways = findDoorways(around.grid, Eigen::Vector2d::Zero(), config_.doorways);
   for (auto& doorway : doorways) {
-    doorway.time = submap.node.end;
-    doorway.since = submap.node.begin;
+    doorway.time = around.end;
+    doorway.since = around.begin;
   }
-  memory_.addFromGrid(submap.node.id, doorways, poses);
+  memory_.addFromGrid(around.submap, doorways, poses);
 }
 
 void Perception::Implementation::enter(const geometry::Pose3& T_submap_before) {
@@ -230,8 +224,6 @@ void Perception::Implementation::save(base::ByteWriter& out) const {
   out << frames_ << lastLook_.has_value();
   if (lastLook_) out << base::toNanoseconds(*lastLook_);
   out << next_.value << hasSideFile_;
-  out << static_cast<std::uint64_t>(skipped_.size());
-  for (const auto& [reason, count] : skipped_) out << std::string_view(reason) << count;
   memory_.save(out);
   tracker_.save(out);
 }
@@ -241,11 +233,6 @@ void Perception::Implementation::load(base::ByteReader& in) {
   lastLook_.reset();
   if (in.read<bool>()) lastLook_ = base::fromNanoseconds(in.read<std::int64_t>());
   in >> next_.value >> hasSideFile_;
-  skipped_.clear();
-  for (auto left = in.read<std::uint64_t>(); left > 0; --left) {
-    auto reason = in.read<std::string>();
-    skipped_[reason] = in.read<std::int64_t>();
-  }
   memory_.load(in);
   tracker_.load(in);
 }
@@ -254,14 +241,18 @@ Perception::Perception(const PerceptionConfig& config, base::SessionId session, 
                        DebugImages* debug)
     : implementation_(std::make_unique<Implementation>(config, session, std::move(classes), first, debug)) {}
 Perception::~Perception() = default;
-void Perception::perceive(const Place& place, const EntityMemory::SubMapPoses& poses, base::StageTimes& times) {
-  implementation_->perceive(place, poses, times);
+void Perception::perceive(const Place& place, const EntityMemory::SubMapPoses& poses, base::StageTimes& times,
+                          std::map<std::string, std::int64_t>& notLookedAt) {
+  implementation_->perceive(place, poses, times, notLookedAt);
 }
 bool Perception::takeSideFile(const sensors::Reading& reading, const map::SubMap& submap) {
   return implementation_->takeSideFile(reading, submap);
 }
-void Perception::finish(const map::SubMap& submap, const EntityMemory::SubMapPoses& poses, base::StageTimes& times) {
-  implementation_->finish(submap, poses, times);
+void Perception::lookAround(const Surroundings& around, const EntityMemory::SubMapPoses& poses) {
+  implementation_->lookAround(around, poses);
+}
+void Perception::finish(const map::SubMap& submap) {
+  implementation_->finish(submap);
 }
 void Perception::enter(const geometry::Pose3& T_submap_before) {
   implementation_->enter(T_submap_before);
@@ -271,9 +262,6 @@ std::vector<map::Entity> Perception::entities() const {
 }
 void Perception::addTo(map::MapChange& change) {
   implementation_->addTo(change);
-}
-const std::map<std::string, std::int64_t>& Perception::skipped() const {
-  return implementation_->skipped();
 }
 void Perception::save(base::ByteWriter& out) const {
   implementation_->save(out);

@@ -4,6 +4,8 @@
 
 #include "prodomos/geometry/plane.hpp"
 
+#include "perception/numeric.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -55,12 +57,6 @@ std::vector<std::pair<cv::Point, double>> depthsIn(const UprightView& view, cons
 }
 
 }  // namespace
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::optional<double> torsoDepth(const UprightView& view, const PicturedPerson& person) {
   std::vector<double> depths;

@@ -46,7 +46,5 @@ double widthOf(const Body& body);
 bool isOfHumanSize(const Body& body, double floor_z);
 /// Whether the torso is a piece of a plane that goes on beside it: a poster, a screen.
 bool isFlat(const UprightView& view, const PicturedPerson& person, const Body& body);
-/// Of values there are some.
-double median(std::vector<double> values);
 
 }  // namespace prodomos::perception

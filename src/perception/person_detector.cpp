@@ -24,11 +24,6 @@ constexpr double kSamePerson = 0.45;  ///< IoU of boxes
 constexpr double kDoubtful = 0.5;
 constexpr double kPersonalSpace = 0.4;  ///< metres between middles: no two bodies are nearer
 
-double overlap(const cv::Rect2d& a, const cv::Rect2d& b) {
-  const double common = (a & b).area();
-  return common / (a.area() + b.area() - common);
-}
-
 /// What either network finds; where both do, it is the surer.
 std::vector<PersonBox> united(const std::vector<PersonBox>& bodies, const std::vector<PersonBox>& others) {
   std::vector<PersonBox> all;

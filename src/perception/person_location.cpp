@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perception/person_location.hpp"
 
+#include "perception/numeric.hpp"
 #include "perception/person_facing.hpp"
 
 #include <algorithm>

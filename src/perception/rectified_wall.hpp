@@ -35,6 +35,11 @@ enum class Seen : std::uint8_t {
   kBeyond,   ///< one sees through it: an opening, or the wall has an end
 };
 
+/// Whether it is wall, frame or leaf as far as one knows.
+inline bool isVisible(Seen seen) {
+  return seen == Seen::kWall || seen == Seen::kColor;
+}
+
 /// A wall's image as if seen straight on: columns along the wall's x, rows from the top down, square pixels.
 class RectifiedWall {
  public:

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perception/staircase_landmark.hpp"
 
+#include "perception/numeric.hpp"
 #include "perception/robust_mean.hpp"
 
 #include <algorithm>
@@ -22,10 +23,6 @@ constexpr double kSureOfFloor = 0.4;    // of a riser: a floor known so well is 
 constexpr double kLeastShare = 0.15;    // of the sightings of a floor: fewer are strays
 constexpr double kFootKnown = 0.3;      // metres along the flight
 constexpr double kPointSigma = 0.02;    // metres, of an edge in one reading
-
-double square(double value) {
-  return value * value;
-}
 
 Eigen::Vector3d uphillOf(double heading) {
   return {std::cos(heading), std::sin(heading), 0.0};
@@ -53,10 +50,9 @@ std::pair<double, int> riserOf(const std::vector<Step>& steps) {
   if (steps.size() < 2) return {0.0, 0};
   std::vector<double> rises;
   for (std::size_t i = 1; i < steps.size(); ++i) rises.push_back(steps[i].z - steps[i - 1].z);
-  std::ranges::nth_element(rises, rises.begin() + static_cast<std::ptrdiff_t>(rises.size() / 2));
-  const double median = rises[rises.size() / 2];
+  const double usual = median(std::move(rises));
   const double whole = steps.back().z - steps.front().z;
-  const int count = median > 0.0 ? static_cast<int>(std::lround(whole / median)) : 0;
+  const int count = usual > 0.0 ? static_cast<int>(std::lround(whole / usual)) : 0;
   return count > 0 ? std::pair(whole / count, count) : std::pair(0.0, 0);
 }
 

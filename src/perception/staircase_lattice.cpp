@@ -66,11 +66,11 @@ float misfit(const Judges& judges, const StepLattice& lattice) {
 }
 
 /// The best of a grid of lattices near the slope z = slope * x.
-FoundLattice search(std::span<const FlightPoint> points, double slope) {
+FoundLattice search(std::span<const FlightPoint> points, double slope, bool mayTurn) {
   FoundLattice best;
   float least = std::numeric_limits<float>::infinity();
   for (const double turn : {0.0, -0.15, 0.15}) {
-    if (least > kHopeless && turn != 0.0) break;
+    if (turn != 0.0 && (!mayTurn || least > kHopeless)) break;
     const Judges judges = judgesOf(points, turn);
     for (const double steeper : {0.85, 1.0, 1.18}) {
       for (double depth = kLeastDepth; depth <= kMostDepth; depth *= kNextDepth) {
@@ -133,9 +133,10 @@ class Fronts {
 
 /// Least squares of risers (x = firstRiser + k depth + skew y) and treads (z = firstTread + k rise), weakly held where
 /// they are. Returns the skew: the tangent of the turn that is left.
-double refine(StepLattice& lattice, std::span<const FlightPoint> points) {
+double refine(StepLattice& lattice, std::span<const FlightPoint> points, bool mayTurn) {
   const double trust = 1.0 / (kTrust * kTrust);
-  Eigen::Matrix3d riserSquares = Eigen::Vector3d(trust, trust, 10.0).asDiagonal();  // the turn within some 20 degrees
+  const double straight = mayTurn ? 10.0 : 1e9;  // 10: within some 20 degrees
+  Eigen::Matrix3d riserSquares = Eigen::Vector3d(trust, trust, straight).asDiagonal();
   Eigen::Vector3d riserProducts(trust * lattice.firstRiser, trust * lattice.depth, 0.0);
   Eigen::Matrix2d treadSquares = trust * Eigen::Matrix2d::Identity();
   Eigen::Vector2d treadProducts = trust * Eigen::Vector2d(lattice.firstTread, lattice.rise);
@@ -197,8 +198,8 @@ StepPlace StepLattice::placeOf(double x, double z) const {
   return {StepPart::kRiser, step + 1, behind};
 }
 
-std::optional<FoundLattice> findLattice(std::span<const FlightPoint> points, double slope) {
-  FoundLattice found = search(points, slope);
+std::optional<FoundLattice> findLattice(std::span<const FlightPoint> points, double slope, bool mayTurn) {
+  FoundLattice found = search(points, slope, mayTurn);
   if (!(found.lattice.depth > 0.0)) return std::nullopt;
   std::vector<FlightPoint> turned(points.begin(), points.end());
   double turn = found.turn;
@@ -212,7 +213,7 @@ std::optional<FoundLattice> findLattice(std::span<const FlightPoint> points, dou
     }
     found.turn += turn;
     // x = skew y along a riser: the uphill direction turns by its negative.
-    turn = -std::atan(refine(found.lattice, turned));
+    turn = -std::atan(refine(found.lattice, turned, mayTurn));
     const StepLattice& lattice = found.lattice;
     if (!(lattice.rise > kLeastRise && lattice.rise < kMostRise && lattice.depth > kLeastDepth &&
           lattice.depth < kMostDepth)) {

@@ -54,7 +54,7 @@ struct FoundLattice {
 };
 
 /// Steps along points near the slope z = slope * x: a search over sizes and phases, then least squares. None where no
-/// size of step fits better than the slope itself.
-std::optional<FoundLattice> findLattice(std::span<const FlightPoint> points, double slope);
+/// size of step fits better than the slope itself. `mayTurn`: the x-axis may be a few degrees off the uphill direction.
+std::optional<FoundLattice> findLattice(std::span<const FlightPoint> points, double slope, bool mayTurn = true);
 
 }  // namespace prodomos::perception

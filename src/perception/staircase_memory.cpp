@@ -4,6 +4,8 @@
 
 #include "prodomos/geometry/assignment.hpp"
 
+#include "perception/numeric.hpp"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -23,10 +25,6 @@ constexpr double kNothing = 3.0;  // where there is nothing, that is as bad as s
 constexpr double kInSlope = 0.3;  // metres along the line of sight
 constexpr double kGreatestWidth = 12.0;
 constexpr double kGreatestRiser = 0.4;
-
-double square(double value) {
-  return value * value;
-}
 
 /// A flight in one common sub-map, as much of it as was seen.
 struct FlightPlace {
@@ -216,11 +214,8 @@ void StaircaseMemory::see(StaircaseLandmark& stairs, const Frames& frames, const
   constexpr int kLeastSpots = 9;
   if (spots < kLeastSpots || known < kWellSeenShare * spots) return;
   const bool isRefuted = through >= kClearlyThrough * known;
-  auto& look = lookFrom(stairs.looks, frames.submap(), view.T_submap_camera.translation(), config_.lookSpacing);
-  look.evidence -= config_.stairsMiss * (isRefuted ? kNothing : 1.0);
-  ++look.misses;
-  stairs.logOdds = logOddsOf(stairs.looks, config_);
-  stairs.hasChanged = true;
+  countMiss(stairs, frames.submap(), view.T_submap_camera.translation(),
+            config_.stairsMiss * (isRefuted ? kNothing : 1.0), config_);
 }
 
 }  // namespace prodomos::perception

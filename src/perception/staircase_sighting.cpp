@@ -4,6 +4,8 @@
 
 #include "prodomos/geometry/pose.hpp"
 
+#include "perception/numeric.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -22,9 +24,14 @@ constexpr double kSlab = 0.22;        // metres from a ceiling to the floor abov
 /// One flight while it is made a sighting of.
 class Flight {
  public:
-  Flight(const Surfaces& surfaces, const StepLattice& lattice, const Pose3& T_submap_flight,
-         const std::vector<SeenStep>& steps, const ProfileCheck& check)
-      : surfaces_(surfaces), lattice_(lattice), T_submap_flight_(T_submap_flight), steps_(steps), check_(check) {}
+  Flight(const Surfaces& surfaces, const StepLattice& lattice, const Pose3& T_submap_flight, const FlightSteps& flight,
+         const ProfileCheck& check)
+      : surfaces_(surfaces),
+        lattice_(lattice),
+        T_submap_flight_(T_submap_flight),
+        steps_(flight.steps),
+        beginsThere_(flight.beginsThere),
+        check_(check) {}
 
   void tellFoot(StaircaseSighting& sighting) const;
   void tellNewFloor(StaircaseSighting& sighting) const;
@@ -54,6 +61,7 @@ class Flight {
   const StepLattice& lattice_;
   const Pose3& T_submap_flight_;
   const std::vector<SeenStep>& steps_;
+  bool beginsThere_;
   const ProfileCheck& check_;
 };
 
@@ -72,9 +80,7 @@ Flight::Side Flight::sideTo(double sign) const {
     if (behind && *behind > -kInFront) ends.push_back(end);
   }
   if (ends.size() < 2) return {farthest, false};
-  const auto middle = ends.begin() + static_cast<std::ptrdiff_t>(ends.size() / 2);
-  std::ranges::nth_element(ends, middle);
-  return {*middle, true};
+  return {median(std::move(ends)), true};
 }
 
 /// A level patch goes on from the last tread, farther than a tread would.
@@ -134,7 +140,7 @@ void Flight::tellFoot(StaircaseSighting& sighting) const {
   const int lowest = steps_.front().index;
   const int highest = steps_.back().index;
   const int floor = floorStep();
-  const bool stands = meetsFloor() && floor < lowest;
+  const bool stands = meetsFloor() && (beginsThere_ ? floor + 1 == lowest : floor < lowest);
   const int first = stands ? floor + 1 : lowest;
   sighting.footIsSeen = stands && first == lowest;
   sighting.descends = highest <= floor;
@@ -150,7 +156,7 @@ void Flight::tellFoot(StaircaseSighting& sighting) const {
 
   double sigma = 0.0;
   for (const SeenStep& step : steps_) sigma += step.sigma / static_cast<double>(steps_.size());
-  const double along = stands ? 0.02 + 0.5 * sigma + 0.015 * (lowest - first) : 0.5;
+  const double along = stands || beginsThere_ ? 0.02 + 0.5 * sigma + 0.015 * (lowest - first) : 0.5;
   const double across = sighting.widthIsWhole ? 0.03 : left.seen || right.seen ? 0.3 : 0.5;
   const double turn =
       0.01 + (0.01 + sigma) / std::max(sighting.width, kLeastWidth) / std::sqrt(static_cast<double>(steps_.size()));
@@ -202,7 +208,7 @@ double evidenceOf(const FlightSteps& flight, const FoundLattice& found, bool mee
 
 StaircaseSighting sightingOf(const RgbdView& view, const Surfaces& surfaces, const FoundLattice& found,
                              const Pose3& T_submap_flight, const FlightSteps& steps, const ProfileCheck& check) {
-  const Flight flight(surfaces, found.lattice, T_submap_flight, steps.steps, check);
+  const Flight flight(surfaces, found.lattice, T_submap_flight, steps, check);
   StaircaseSighting sighting;
   sighting.time = view.time;
   sighting.slope = found.lattice.slope();

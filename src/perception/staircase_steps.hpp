@@ -67,6 +67,7 @@ struct FlightSteps {
   std::vector<SeenStep> steps;
   std::vector<Eigen::Vector3d> points_in_flight;
   ProfileCheck::Count count;
+  bool beginsThere = false;  ///< one sees that there is no step below the lowest
 };
 
 /// The steps of a lattice one by one: enough of them in a row, each at its place and as wide as a step, with nothing

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perception/step_ladder.hpp"
 
+#include "perception/numeric.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -15,10 +17,6 @@ constexpr int kIterations = 4;
 constexpr double kStrayRise = 0.03;    // metres off, where a tread begins to fade
 constexpr double kStrayAlong = 0.06;   // metres
 constexpr double kLeastSupport = 0.2;  // of the median tread's: fewer readings show a stray
-
-double square(double value) {
-  return value * value;
-}
 
 /// Where in the rhythm of the steps the treads lie: the circular mean of z modulo the riser.
 double phaseOf(const std::vector<Tread>& treads, double riser) {
@@ -72,11 +70,10 @@ std::optional<Line> fitLine(const std::vector<int>& ks, const std::vector<double
 std::pair<int, int> supported(const std::vector<int>& ks, const std::vector<Tread>& treads) {
   std::map<int, double> support;
   for (std::size_t i = 0; i < ks.size(); ++i) support[ks[i]] += treads[i].weight;
-  std::vector<double> sorted;
-  sorted.reserve(support.size());
-  for (const auto& [k, weight] : support) sorted.push_back(weight);
-  std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2));
-  const double least = kLeastSupport * sorted[sorted.size() / 2];
+  std::vector<double> weights;
+  weights.reserve(support.size());
+  for (const auto& [k, weight] : support) weights.push_back(weight);
+  const double least = kLeastSupport * median(std::move(weights));
   std::erase_if(support, [least](const auto& entry) { return entry.second < least; });
   return {support.begin()->first, support.rbegin()->first};
 }

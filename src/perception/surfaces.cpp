@@ -309,11 +309,6 @@ class PatchMaker {
   std::vector<float> leastCosine_;
 };
 
-Plane transformed(const geometry::Pose3& T_a_b, const Plane& plane_in_b) {
-  const Eigen::Vector3d normal = T_a_b.linear() * plane_in_b.normal;
-  return {normal, plane_in_b.offset + normal.dot(T_a_b.translation())};
-}
-
 /// The level patch, seen from above, that is as large and as near to where the floor is believed as any.
 void findFloor(Surfaces& surfaces, double expected_z) {
   surfaces.floor_z = expected_z;
@@ -327,13 +322,6 @@ void findFloor(Surfaces& surfaces, double expected_z) {
     surfaces.floor_z = patch.centroid_in_submap.z();
     surfaces.floorIsSeen = true;
   }
-}
-
-bool isUsable(const RgbdView& view) {
-  const sensors::CameraIntrinsics& camera = view.frame.camera;
-  return !view.frame.depth.empty() && camera.fx > 0.0 && camera.fy > 0.0 && std::isfinite(camera.fx * camera.fy) &&
-         std::isfinite(camera.cx + camera.cy) && geometry::isFinite(view.T_submap_camera) &&
-         std::isfinite(view.floor_z);
 }
 
 }  // namespace
@@ -354,7 +342,7 @@ double PlanarPatch::tilt() const {
 Surfaces findSurfaces(const RgbdView& view, const SurfacesConfig& config) {
   Surfaces surfaces;
   surfaces.floor_z = view.floor_z;
-  if (!isUsable(view)) return surfaces;
+  if (!hasPoints(view)) return surfaces;
 
   const sensors::Image<float>& depth = view.frame.depth;
   const bool moversFit =
@@ -383,7 +371,7 @@ Surfaces findSurfaces(const RgbdView& view, const SurfacesConfig& config) {
   }
 
   for (PlanarPatch& patch : surfaces.patches) {
-    patch.plane_in_submap = transformed(view.T_submap_camera, patch.plane_in_submap);
+    patch.plane_in_submap = geometry::transformed(view.T_submap_camera, patch.plane_in_submap);
     patch.centroid_in_submap = view.T_submap_camera * patch.centroid_in_submap;
   }
   std::ranges::stable_sort(surfaces.patches, std::ranges::greater{}, &PlanarPatch::area);

@@ -19,13 +19,9 @@ constexpr double kLeastAcross = 0.4;
 
 bool isUsable(const RgbdView& view) {
   const auto& [width, height] = std::pair(view.frame.depth.width(), view.frame.depth.height());
-  const auto& camera = view.frame.camera;
-  const bool isPinhole = camera.fx > 0.0 && camera.fy > 0.0 && std::isfinite(camera.fx) && std::isfinite(camera.fy) &&
-                         std::isfinite(camera.cx) && std::isfinite(camera.cy);
   const auto& color = view.frame.color;
   const bool fits = color.empty() || (color.width() == width && color.height() == height);
-  return isPinhole && fits && !view.frame.depth.empty() && geometry::isFinite(view.T_submap_camera) &&
-         std::isfinite(view.floor_z);
+  return hasPoints(view) && fits;
 }
 
 cv::Point2d operator*(const cv::Matx23d& map, const cv::Point2d& p) {

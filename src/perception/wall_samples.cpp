@@ -2,17 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perception/wall_samples.hpp"
 
+#include "perception/numeric.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace prodomos::perception {
-
-double median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return static_cast<double>(*middle);
-}
 
 Box clipped(Box box, const RectifiedWall& wall) {
   box.first = std::clamp(box.first, 0, wall.width());
@@ -20,10 +16,6 @@ Box clipped(Box box, const RectifiedWall& wall) {
   box.top = std::clamp(box.top, 0, wall.height());
   box.bottom = std::clamp(box.bottom, 0, wall.height());
   return box;
-}
-
-bool isVisible(Seen seen) {
-  return seen == Seen::kWall || seen == Seen::kColor;
 }
 
 int columns(double metres) {

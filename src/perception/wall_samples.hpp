@@ -21,13 +21,8 @@ struct Box {
 Box clipped(Box box, const RectifiedWall& wall);
 int blocksOf(const Box& box);
 
-/// Whether it is wall, frame or leaf as far as one knows.
-bool isVisible(Seen seen);
-
 /// The columns of metres.
 int columns(double metres);
-
-double median(std::vector<float>& values);
 
 /// Known offsets in a box, one a block; of it what the wall has.
 std::vector<float> offsetsIn(const RectifiedWall& wall, const Box& unclipped);

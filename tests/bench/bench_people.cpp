@@ -12,6 +12,8 @@
 #include "prodomos/io/open_source.hpp"
 #include "prodomos/perception/people.hpp"
 
+#include "support/true_views.hpp"
+
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -37,20 +39,6 @@ struct Options {
   std::string pictures;
   int every = 1;
 };
-
-/// Of the storey below the robot.
-double floorBelow(const evaluation::Truth& truth, const geometry::Pose3& T_world_body) {
-  double floor_z = 0.0;
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& storey : truth.storeys) {
-    const double away = std::abs(storey.floor_z - T_world_body.translation().z());
-    if (away < least) {
-      least = away;
-      floor_z = storey.floor_z;
-    }
-  }
-  return floor_z;
-}
 
 double processorSeconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
@@ -109,7 +97,7 @@ Run follow(const std::string& log, const evaluation::Truth& truth, const Options
       const perception::RgbdView view{.time = reading->time,
                                       .frame = *frame,
                                       .T_submap_camera = *T_world_body * frame->T_body_camera,
-                                      .floor_z = floorBelow(truth, *T_world_body)};
+                                      .floor_z = test::floorBelow(truth, T_world_body->translation().z())};
       sightings = options.labels ? detector.findInLabels(view, truth.classes)
                                  : detector.find(view, pictures ? &*pictures : nullptr);
     }

@@ -18,6 +18,7 @@
 #include "prodomos/perception/door_detector.hpp"
 
 #include "support/corridor_doors.hpp"
+#include "support/true_views.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -116,12 +117,6 @@ class Trial {
   std::unique_ptr<perception::DebugImages> pictures_;
 };
 
-double floorBelow(const evaluation::Truth& truth, double z) {
-  const auto nearest = std::ranges::min_element(
-      truth.storeys, {}, [&](const evaluation::TrueStorey& storey) { return std::abs(storey.floor_z - z); });
-  return nearest == truth.storeys.end() ? 0.0 : nearest->floor_z;
-}
-
 /// The door with leaves whose place and direction are nearest; none within a metre.
 struct Nearest {
   const evaluation::TrueDoor* door = nullptr;
@@ -182,23 +177,11 @@ void judgeByTruth(const std::vector<DoorSighting>& doors, const evaluation::Trut
 
 void runLog(const std::string& log, const Options& options, Trial& trial) {
   const auto truth = evaluation::readTruth(evaluation::truthPath(log));
-  const auto source = io::openSource(log);
-  for (int frame = 0;;) {
-    const auto item = source->next();
-    if (std::holds_alternative<sensors::EndOfLog>(item)) break;
-    const auto* reading = std::get_if<sensors::Reading>(&item);
-    const auto* image = reading == nullptr ? nullptr : std::get_if<sensors::RgbdFrame>(&reading->data);
-    if (image == nullptr || frame++ % options.every != 0) continue;
-    const auto* body = evaluation::findNearest(truth.trajectory, reading->time, std::chrono::milliseconds(20));
-    if (body == nullptr) continue;
-    const perception::RgbdView view{.time = reading->time,
-                                    .frame = *image,
-                                    .T_submap_camera = body->pose * image->T_body_camera,
-                                    .floor_z = floorBelow(truth, body->pose.translation().z())};
-    trial.run(view, frame - 1, [&](const std::vector<DoorSighting>& doors, Score& score) {
-      judgeByTruth(doors, truth, reading->time, score);
+  test::forEachTrueView(log, truth, options.every, [&](const perception::RgbdView& view, int frame) {
+    trial.run(view, frame, [&](const std::vector<DoorSighting>& doors, Score& score) {
+      judgeByTruth(doors, truth, view.time, score);
     });
-  }
+  });
 }
 
 void runCorridor(const Options& options, Trial& trial) {

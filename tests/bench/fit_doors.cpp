@@ -12,11 +12,11 @@
 
 #include "prodomos/evaluation/detections.hpp"
 #include "prodomos/evaluation/timed_poses.hpp"
-#include "prodomos/io/open_source.hpp"
 #include "prodomos/perception/door_detector.hpp"
 
 #include "perception/door_candidates.hpp"
 #include "perception/door_verdict.hpp"
+#include "support/true_views.hpp"
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Cholesky>
@@ -130,12 +130,6 @@ Row rowOf(const DoorCandidate& candidate, const perception::RectifiedWall& wall,
   return row;
 }
 
-double floorBelow(const evaluation::Truth& truth, double z) {
-  const auto nearest = std::ranges::min_element(
-      truth.storeys, {}, [&](const evaluation::TrueStorey& storey) { return std::abs(storey.floor_z - z); });
-  return nearest == truth.storeys.end() ? 0.0 : nearest->floor_z;
-}
-
 void addRows(const perception::RgbdView& view, const evaluation::Truth& truth, std::vector<Row>& rows) {
   const perception::DoorDetectorConfig config;
   const auto surfaces = findSurfaces(view, perception::SurfacesConfig{});
@@ -155,24 +149,12 @@ std::vector<Row> readRows(const std::vector<std::string>& logs, int every) {
   std::vector<Row> rows;
   for (const auto& log : logs) {
     const auto truth = evaluation::readTruth(evaluation::truthPath(log));
-    const auto source = io::openSource(log);
-    for (int frame = 0;;) {
-      const auto item = source->next();
-      if (std::holds_alternative<sensors::EndOfLog>(item)) break;
-      const auto* reading = std::get_if<sensors::Reading>(&item);
-      const auto* image = reading == nullptr ? nullptr : std::get_if<sensors::RgbdFrame>(&reading->data);
-      if (image == nullptr || frame++ % every != 0) continue;
-      const auto* body = evaluation::findNearest(truth.trajectory, reading->time, std::chrono::milliseconds(20));
-      if (body == nullptr) continue;
+    test::forEachTrueView(log, truth, every, [&](const perception::RgbdView& view, int frame) {
       const std::size_t before = rows.size();
-      addRows({.time = reading->time,
-               .frame = *image,
-               .T_submap_camera = body->pose * image->T_body_camera,
-               .floor_z = floorBelow(truth, body->pose.translation().z())},
-              truth, rows);
-      const std::string name = std::filesystem::path(log).stem().string() + " " + std::to_string(frame - 1) + " ";
+      addRows(view, truth, rows);
+      const std::string name = std::filesystem::path(log).stem().string() + " " + std::to_string(frame) + " ";
       for (std::size_t i = before; i < rows.size(); ++i) rows[i].place = name + rows[i].place;
-    }
+    });
   }
   return rows;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "prodomos/base/random.hpp"
+#include "prodomos/geometry/pose.hpp"
 
 #include <Eigen/Core>
 
@@ -23,6 +24,12 @@ struct Plane {
   double signedDistance(const Eigen::Vector3d& point) const { return normal.dot(point) - offset; }
   Plane flipped() const { return {-normal, -offset}; }
 };
+
+/// The same plane, told in a.
+inline Plane transformed(const Pose3& T_a_b, const Plane& plane_in_b) {
+  const Eigen::Vector3d normal = T_a_b.linear() * plane_in_b.normal;
+  return {normal, plane_in_b.offset + normal.dot(T_a_b.translation())};
+}
 
 /// Least squares of the distances. None for fewer than three points, or for points on a line.
 std::optional<Plane> fitPlane(std::span<const Eigen::Vector3d> points);

@@ -21,6 +21,11 @@ struct SubMap {
 
   /// Null where the sub-map has no such layer.
   const MapLayer* findLayer(std::string_view typeId) const;
+  /// The same as its own class: `submap.findLayer<OccupancyGrid>()`.
+  template <typename Layer>
+  const Layer* findLayer() const {
+    return dynamic_cast<const Layer*>(findLayer(Layer::kTypeId));
+  }
 };
 
 /// An empty sub-map with one layer of each type.

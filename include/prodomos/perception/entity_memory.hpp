@@ -34,6 +34,7 @@ struct EntityMemoryConfig {
   double forgetting = 120.0;        ///< seconds after which what was never sure is forgotten
   double leastDoorWidth = 0.5;      ///< metres
   double greatestDoorWidth = 3.2;   ///< metres
+  double greatestOpening = 4.2;     ///< metres, of doorways without a leaf
 };
 
 void describe(base::ConfigVisitor& visitor, EntityMemoryConfig& config);

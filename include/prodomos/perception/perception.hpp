@@ -4,6 +4,7 @@
 
 #include "prodomos/base/bytes.hpp"
 #include "prodomos/base/stopwatch.hpp"
+#include "prodomos/map/occupancy_grid.hpp"
 #include "prodomos/map/submap.hpp"
 #include "prodomos/perception/config.hpp"
 
@@ -38,12 +39,23 @@ class Perception {
     const map::SubMap& submap;  ///< with the reading in its layers
     double floor_z = 0.0;       ///< of the floor below the robot, in the sub-map
   };
-  void perceive(const Place& place, const EntityMemory::SubMapPoses& poses, base::StageTimes& times);
+  /// What could not be looked at is counted in `notLookedAt`, by reason: "an image without depth".
+  void perceive(const Place& place, const EntityMemory::SubMapPoses& poses, base::StageTimes& times,
+                std::map<std::string, std::int64_t>& notLookedAt);
   /// Joints of the image perceived last, from a side file: in place of what networks would say. False: there are none
   /// of use in it. `submap`: the running one.
   bool takeSideFile(const sensors::Reading& reading, const map::SubMap& submap);
-  /// The robot has left the sub-map, whose layers are final.
-  void finish(const map::SubMap& submap, const EntityMemory::SubMapPoses& poses, base::StageTimes& times);
+  /// What is known around a sub-map.
+  struct Surroundings {
+    base::SubMapId submap;
+    map::OccupancyGrid grid;  ///< its own, with those of its neighbours merged into it
+    base::Time begin{};       ///< of the readings in it
+    base::Time end{};
+  };
+  /// Looks for doorways. May be asked for again, once more is known: the last look at a sub-map counts.
+  void lookAround(const Surroundings& around, const EntityMemory::SubMapPoses& poses);
+  /// The robot has left the sub-map, whose layers are final ...
+  void finish(const map::SubMap& submap);
   /// ... and goes on in another one.
   void enter(const geometry::Pose3& T_submap_before);
 
@@ -51,8 +63,6 @@ class Perception {
   std::vector<map::Entity> entities() const;
   /// What has changed since the last call.
   void addTo(map::MapChange& change);
-  /// What detectors could not look at, by reason: {"doors and people: an image without colour", 12}.
-  const std::map<std::string, std::int64_t>& skipped() const;
 
   void save(base::ByteWriter& out) const;
   void load(base::ByteReader& in);

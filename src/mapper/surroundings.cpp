@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mapper/surroundings.hpp"
+
+#include <algorithm>
+
+namespace prodomos::mapper {
+
+namespace {
+
+constexpr double kReach = 8.0;          // metres between the origins of neighbours
+constexpr std::size_t kNeighbours = 3;  // the nearest; each one's pose is a little off, and blurs walls
+constexpr std::size_t kRecent = 24;
+
+}  // namespace
+
+std::optional<perception::Perception::Surroundings> Surroundings::of(base::SubMapId submap,
+                                                                     const map::SubMap& running) {
+  const auto& node = graph_.node(submap);
+  const auto own = gridOf(submap, running);
+  if (own == nullptr) return std::nullopt;
+  perception::Perception::Surroundings around{submap, *own, node.begin, node.end};
+  for (const auto& neighbour : graph_.nearest(submap, kReach, kNeighbours)) {
+    const auto grid = gridOf(neighbour.id, running);
+    if (grid == nullptr) continue;
+    around.grid.merge(*grid, node.T_map_submap.inverse() * neighbour.T_map_submap);
+    around.begin = std::min(around.begin, neighbour.begin);
+    around.end = std::max(around.end, neighbour.end);
+  }
+  return around;
+}
+
+Surroundings::Grid Surroundings::gridOf(base::SubMapId submap, const map::SubMap& running) {
+  if (submap == running.node.id) return {Grid(), running.findLayer<map::OccupancyGrid>()};  // owned by the sub-map
+  const auto known = std::ranges::find(recent_, submap, &std::pair<base::SubMapId, Grid>::first);
+  if (known != recent_.end()) return known->second;
+  const Grid grid = std::dynamic_pointer_cast<const map::OccupancyGrid>(
+      std::shared_ptr<const map::MapLayer>(store_.findLayer(submap, map::OccupancyGrid::kTypeId)));
+  recent_.emplace_back(submap, grid);
+  if (recent_.size() > kRecent) recent_.pop_front();
+  return grid;
+}
+
+}  // namespace prodomos::mapper
