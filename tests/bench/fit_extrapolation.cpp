@@ -22,7 +22,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
@@ -121,9 +121,9 @@ struct Table {
   void add(const Plan& plan, const CellMap<CellState>& known, const geometry::Pose3& T_world_areas,
            const std::vector<map::PredictedArea>& areas) {
     for (const auto& area : areas) {
-      auto& counts = levels[static_cast<std::size_t>(std::ranges::find(kThresholds, area.threshold) -
-                                                     kThresholds.begin())];
-      for (const auto cell : geometry::cellsIn(geometry::transformed(T_world_areas, area.outline_in_submap))) {
+      auto& counts =
+          levels[static_cast<std::size_t>(std::ranges::find(kThresholds, area.threshold) - kThresholds.begin())];
+      for (const auto cell : geometry::cellsIn(geometry::transformed(T_world_areas, area.outline_in_node))) {
         if (known.at(cell) != CellState::kUnknown) continue;
         counts.all += 1.0;
         counts.right += plan.isFloor(cell) ? 1.0 : 0.0;
@@ -152,8 +152,9 @@ struct Table {
   void print(const std::string& name) const {
     std::cout << std::left << std::setw(22) << name << std::right << std::setw(6) << cases << std::fixed;
     for (const auto& level : levels) {
-      std::cout << std::setprecision(3) << "   " << (level.all > 0.0 ? level.right / level.all : 0.0) << std::setprecision(2)
-                << " " << level.all * kResolution * kResolution / static_cast<double>(cases) << " m²";
+      std::cout << std::setprecision(3) << "   " << (level.all > 0.0 ? level.right / level.all : 0.0)
+                << std::setprecision(2) << " " << level.all * kResolution * kResolution / static_cast<double>(cases)
+                << " m²";
       const auto disc = std::ranges::lower_bound(discAll, level.all);
       if (level.all == 0.0 || disc == discAll.end() || *disc == 0.0) continue;
       std::cout << std::setprecision(3) << " (disc "
@@ -166,9 +167,9 @@ struct Table {
 
 template <typename Function>
 auto timed(Table& table, const Function& function) {
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = std::clock();
   auto result = function();
-  const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double spent = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   table.time += spent;
   table.slowest = std::max(table.slowest, spent);
   ++table.cases;
@@ -259,7 +260,8 @@ void addStairs(const simulation::Building& building, const prediction::Extrapola
     const Eigen::Vector2d middle =
         stairs.foot.head<2>() + Eigen::Vector2d(std::cos(stairs.direction), std::sin(stairs.direction)) * run / 2.0;
     map::Entity entity;
-    entity.T_submap_entity = geometry::toPose3({middle.x(), middle.y(), stairs.direction}, height / 2.0);
+    entity.T_submap_entity.translation().z() = height / 2.0;
+    const Pose2 T_world_submap{middle.x(), middle.y(), stairs.direction};
     for (const double sign : {1.0, -1.0}) {
       const int storey = sign > 0.0 ? stairs.upperStorey : stairs.lowerStorey;
       if (storey < 0 || storey >= static_cast<int>(building.storeys.size())) continue;
@@ -270,7 +272,7 @@ void addStairs(const simulation::Building& building, const prediction::Extrapola
       auto& table = sign > 0.0 ? up : down;
       const auto told = timed(table, [&] { return prediction::extrapolate(entity, {}, nullptr, config); });
       const auto& submap = std::get<prediction::PredictedSubMap>(told);
-      table.add(Plan(building, storey), nothing, submap.T_i_j, submap.areas);
+      table.add(Plan(building, storey), nothing, geometry::toPose3(T_world_submap) * submap.T_i_j, submap.areas);
     }
   }
 }
