@@ -234,21 +234,30 @@ std::optional<Eigen::Vector2d> OccupancyGrid::levelBeams(const PlacedReading& pl
 
 void OccupancyGrid::merge(const MapLayer& other, const geometry::Pose3& T_this_other) {
   const auto& source = dynamic_cast<const OccupancyGrid&>(other);
-  const auto known = source.knownBox();
-  if (known.empty()) return;
-  const geometry::Pose2 T_source_this = inverse(geometry::toPose2(T_this_other));
-  const geometry::Pose3 T_this_source = geometry::toPose3(geometry::toPose2(T_this_other));
+  mergeWithin(boxOf(source, T_this_other), source, T_this_other);
+}
 
-  geometry::CellBox target;
+/// The cells here that the other's known ones may lie in.
+geometry::CellBox OccupancyGrid::boxOf(const OccupancyGrid& other, const geometry::Pose3& T_this_other) const {
+  geometry::CellBox box;
+  const auto known = other.knownBox();
+  if (known.empty()) return box;
+  const geometry::Pose2 T_this_source = geometry::toPose2(T_this_other);
   for (const int x : {known.first.x, known.last.x + 1}) {
-    for (const int y : {known.first.y, known.last.y + 1}) {
-      const Eigen::Vector3d corner =
-          T_this_source * Eigen::Vector3d(x * source.resolution(), y * source.resolution(), 0);
-      target.add(cellAt(corner.head<2>()));
-    }
+    for (const int y : {known.first.y, known.last.y + 1})
+      box.add(cellAt(T_this_source * Eigen::Vector2d(x * other.resolution(), y * other.resolution())));
   }
-  grow(target);
+  return box;
+}
 
+void OccupancyGrid::mergeWithin(const geometry::CellBox& limits, const OccupancyGrid& source,
+                                const geometry::Pose3& T_this_source) {
+  auto target = boxOf(source, T_this_source);
+  target.first = {std::max(target.first.x, limits.first.x), std::max(target.first.y, limits.first.y)};
+  target.last = {std::min(target.last.x, limits.last.x), std::min(target.last.y, limits.last.y)};
+  if (target.empty()) return;
+  grow(target);
+  const geometry::Pose2 T_source_this = inverse(geometry::toPose2(T_this_source));
   const double c = std::cos(T_source_this.theta);
   const double s = std::sin(T_source_this.theta);
   for (int y = target.first.y; y <= target.last.y; ++y) {

@@ -229,7 +229,7 @@ bool NarrowSearch::isOneWall(const JambPair& jambs, const Narrow& narrow) const 
 
 /// The end of a wall, and across the gap something longer: the leaf that stands open there, or a perpendicular wall.
 bool NarrowSearch::isWallAndLeaf(const JambPair& jambs, const Narrow& narrow) const {
-  constexpr double kMostLeaf = 1.3;  // metres
+  constexpr double kMostLeaf = 2.2;  // metres
   constexpr int kLeastRows = 3;
   const Jamb& wall = jambs.thinner();
   const double needed = neededWall(narrow) * raster_.step();
@@ -324,7 +324,8 @@ std::optional<Opening> NarrowSearch::judge(const Narrow& narrow) const {
   opening.direction = raster_.direction() + 0.5 * std::numbers::pi;
   opening.width = width * raster_.step();
   opening.sigma = 0.5 * raster_.step();
-  opening.evidence = (isPlain ? 0.5 : -0.5) + 2.0 * (jambs.count(Beside::kOpen) - 3) + 3.0 * (seen - kLeastSeen);
+  const double shape = isPlain ? 0.5 : std::clamp(1.5 - 2.0 * (opening.width - 1.0), -1.5, 1.5);
+  opening.evidence = shape + 2.0 * (jambs.count(Beside::kOpen) - 3) + 3.0 * (seen - kLeastSeen);
   return opening;
 }
 

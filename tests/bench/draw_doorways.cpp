@@ -1,19 +1,18 @@
 // SPDX-FileCopyrightText: 2026 the prodomos authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws the doorways that the grids of a map's sub-maps show on the fused grid (docs/doorways.md).
+// Draws a map's doorways on its fused grid (docs/doorways.md).
 //
 //     draw_doorways MAP -o PICTURE.png
 #include "prodomos/map/fused_grid.hpp"
 #include "prodomos/map/map_view.hpp"
-#include "prodomos/perception/doorway_detector.hpp"
 
 #include <CLI/CLI.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include <cmath>
 #include <iostream>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace {
@@ -23,36 +22,15 @@ using namespace prodomos;
 struct Doorway {
   geometry::Pose2 T_map_doorway;
   double width = 0.0;
-  double evidence = 0.0;
 };
-
-bool areSame(const Doorway& a, const Doorway& b) {
-  constexpr double kDistance = 0.5;  // metres
-  constexpr double kSine = 0.5;
-  return std::hypot(a.T_map_doorway.x - b.T_map_doorway.x, a.T_map_doorway.y - b.T_map_doorway.y) < kDistance &&
-         std::abs(std::sin(a.T_map_doorway.theta - b.T_map_doorway.theta)) < kSine;
-}
-
-/// Of the sub-maps that show one, the surest.
-void add(std::vector<Doorway>& doorways, const Doorway& doorway) {
-  for (auto& known : doorways) {
-    if (!areSame(known, doorway)) continue;
-    if (doorway.evidence > known.evidence) known = doorway;
-    return;
-  }
-  doorways.push_back(doorway);
-}
 
 std::vector<Doorway> doorwaysOf(const map::MapView& view) {
   std::vector<Doorway> doorways;
-  for (const auto id : view.graph().nodes()) {
-    const auto grid = view.findLayer<map::OccupancyGrid>(id);
-    if (grid == nullptr) continue;
-    const auto& T_map_submap = view.graph().getNode(id).T_map_submap;
-    for (const auto& sighting : perception::findDoorways(*grid, Eigen::Vector2d::Zero(), {})) {
-      const auto T_map_doorway = geometry::toPose2(T_map_submap * sighting.T_submap_door);
-      add(doorways, {T_map_doorway, sighting.door.width, sighting.evidence});
-    }
+  for (const auto& entity : view.entities()) {
+    const auto* door = std::get_if<map::Door>(&entity.attributes);
+    if (door == nullptr || door->hasLeaf) continue;
+    const auto& T_map_submap = view.graph().getNode(entity.submap).T_map_submap;
+    doorways.push_back({geometry::toPose2(T_map_submap * entity.T_submap_entity), door->width});
   }
   return doorways;
 }

@@ -68,6 +68,8 @@ class OccupancyGrid final : public MapLayer {
   bool integrate(const PlacedReading& placed) override;
   /// Adds the log-odds of the other's nearest cell (only yaw and x, y of the pose count).
   void merge(const MapLayer& other, const geometry::Pose3& T_this_other) override;
+  /// The same of the cells within `limits` alone.
+  void mergeWithin(const geometry::CellBox& limits, const OccupancyGrid& other, const geometry::Pose3& T_this_other);
   void save(base::ByteWriter& out) const override;
   void load(base::ByteReader& in, int version) override;
   Drawing draw() const override;
@@ -79,6 +81,7 @@ class OccupancyGrid final : public MapLayer {
     Cell before = 0;
   };
 
+  geometry::CellBox boxOf(const OccupancyGrid& other, const geometry::Pose3& T_this_other) const;
   void grow(const geometry::CellBox& needed);
   std::optional<Eigen::Vector2d> levelBeams(const PlacedReading& placed);
   Cell* row(int y) { return cells_.data() + static_cast<std::ptrdiff_t>(y - box_.first.y) * box_.width(); }
