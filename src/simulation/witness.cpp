@@ -72,19 +72,25 @@ std::vector<Spot> spotsOf(const Door& door, double leafOffset, double floor_z, d
   return spots;
 }
 
-/// Spots of the riser and of the tread above it.
-std::array<std::vector<Spot>, 2> spotsOfStep(const Staircase& stairs, int step) {
-  const Eigen::Vector2d uphill = direction(stairs.direction);
-  const Eigen::Vector2d left(-uphill.y(), uphill.x());
-  std::array<std::vector<Spot>, 2> parts;
+/// Spots of a step's riser, of the tread above it and of its two ends: as many of each, normals to the side that is
+/// seen.
+std::array<std::vector<Spot>, Witness::kStepParts> spotsOfStep(const Staircase& stairs, int step) {
+  const Eigen::Vector3d uphill = at(direction(stairs.direction), 0.0);
+  const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(uphill);
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d edge = stairs.foot + uphill * stairs.stepDepth * step + up * stairs.stepHeight * step;
+  std::array<std::vector<Spot>, Witness::kStepParts> parts;
   for (int i = 0; i < kAcross; ++i) {
-    const Eigen::Vector2d edge =
-        stairs.foot.head<2>() + uphill * stairs.stepDepth * step + left * stairs.width * ((i + 0.5) / kAcross - 0.5);
-    for (const double share : {0.25, 0.75}) {
-      parts[0].push_back({at(edge, stairs.foot.z() + stairs.stepHeight * (step + share)), -at(uphill, 0.0)});
-      parts[1].push_back(
-          {at(edge + uphill * stairs.stepDepth * share, stairs.foot.z() + stairs.stepHeight * (step + 1)),
-           Eigen::Vector3d::UnitZ()});
+    const double share = (i + 0.5) / kAcross;
+    for (const double other : {0.25, 0.75}) {
+      const Eigen::Vector3d across = edge + left * stairs.width * (share - 0.5);
+      parts[0].push_back({across + up * stairs.stepHeight * other, -uphill});
+      parts[1].push_back({across + uphill * stairs.stepDepth * other + up * stairs.stepHeight, up});
+      // The triangle below the tread and behind the riser: what tells steps from a slope to who stands beside them.
+      const Eigen::Vector3d below =
+          edge + uphill * stairs.stepDepth * share + up * stairs.stepHeight * (1.0 - other * (1.0 - share));
+      parts[2].push_back({below + left * stairs.width / 2.0, left});
+      parts[3].push_back({below - left * stairs.width / 2.0, -left});
     }
   }
   return parts;
@@ -302,6 +308,11 @@ struct Witness::View {
            std::abs(rendering.depth(pixel->x, pixel->y) - pixel->depth) < 0.02 + 0.01 * pixel->depth;
   }
 
+  /// The face itself, not the far side of the flight. By class, for steps of imported meshes are of no instance.
+  bool showsStep(const Spot& spot) const {
+    return spot.normal.dot(eye - spot.point) > 0.0 && showsClass(spot, simulation::classId("stairs"));
+  }
+
   /// Nothing stands between the camera and the spot.
   bool looksThrough(const Spot& spot) const {
     const auto pixel = pixelOf(spot);
@@ -331,7 +342,7 @@ Witness::Witness(const Building& building, const CameraModel& camera, evaluation
     stepIsSeen_.emplace_back();
     for (int step = 0; step < stairs.stepCount; ++step) {
       const std::vector<bool> nothing(std::size_t{2} * kAcross, false);
-      stepIsSeen_.back().push_back({nothing, nothing});
+      stepIsSeen_.back().emplace_back().fill(nothing);
     }
   }
   for (const auto& plane : truth.planes) planes_.push_back(samplesOf(plane));
@@ -408,7 +419,6 @@ void Witness::lookAtFlight(std::size_t index, base::Time time, const View& view)
   const auto& stairs = building_.stairs[index];
   const Eigen::Vector3d middle = (stairs.foot + headOf(stairs)) / 2.0;
   if ((middle - view.eye).norm() > kMostRange + (headOf(stairs) - stairs.foot).norm() / 2.0 + stairs.width) return;
-  const auto instance = stairsInstance(building_, index);
   int stepsSeen = 0;
   int stepsHere = 0;
   for (int step = 0; step < stairs.stepCount; ++step) {
@@ -419,7 +429,7 @@ void Witness::lookAtFlight(std::size_t index, base::Time time, const View& view)
       auto& seen = stepIsSeen_[index][static_cast<std::size_t>(step)][part];
       std::vector<bool> here(seen.size());
       for (std::size_t i = 0; i < here.size(); ++i) {
-        here[i] = view.shows(parts[part][i], instance);
+        here[i] = view.showsStep(parts[part][i]);
         if (here[i]) seen[i] = true;
       }
       isSeen = isSeen || shareOf(seen) >= 0.5;

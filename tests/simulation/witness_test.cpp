@@ -152,7 +152,8 @@ TEST_F(WitnessTest, ADoorwayIsSeenWhereOneLooksThroughIt) {
   EXPECT_EQ(door().share, 0.0);
 }
 
-TEST_F(WitnessTest, ThreeStepsMakeAFlightVisible) {
+/// In the hall: five steps up to the west, from its foot at (2, 0).
+Building hallWithAFlight() {
   auto building = hallWithADoor();
   building.stairs = {{.id = "s",
                       .rooms = {0, 0},
@@ -162,20 +163,47 @@ TEST_F(WitnessTest, ThreeStepsMakeAFlightVisible) {
                       .stepDepth = 0.3,
                       .stepHeight = 0.18,
                       .stepCount = 5}};
-  const auto step = [&](int i) {
-    Pose3 pose = Pose3::Identity();
-    pose.translation() = Eigen::Vector3d(2.0 - 0.3 * i - 0.15, 0.0, 0.09 * (i + 1));
-    return boxSurface(pose, {0.3, 1.2, 0.18 * (i + 1)}, {}, classId("stairs"), stairsInstance(building, 0));
-  };
-  build(building, {step(0), step(1)});
+  return building;
+}
+
+/// Its step i, a block `thick` metres high below the tread.
+Surface step(const Building& building, int i, double thick) {
+  Pose3 pose = Pose3::Identity();
+  pose.translation() = Eigen::Vector3d(2.0 - 0.3 * i - 0.15, 0.0, 0.18 * (i + 1) - thick / 2.0);
+  return boxSurface(pose, {0.3, 1.2, thick}, {}, classId("stairs"), stairsInstance(building, 0));
+}
+
+TEST_F(WitnessTest, ThreeStepsMakeAFlightVisible) {
+  const auto building = hallWithAFlight();
+  const auto solid = [&](int i) { return step(building, i, 0.18 * (i + 1)); };
+  build(building, {solid(0), solid(1)});
   look(1.0, cameraFrom({5.0, 0.0}, {0.0, 0.0}));
   EXPECT_FALSE(truth_.stairs[0].sighting.visible);
 
-  build(building, {step(0), step(1), step(2), step(3), step(4)});
+  build(building, {solid(0), solid(1), solid(2), solid(3), solid(4)});
   look(1.0, cameraFrom({5.0, 0.0}, {0.0, 0.0}));
   EXPECT_TRUE(truth_.stairs[0].sighting.visible);
   EXPECT_GE(truth_.stairs[0].sighting.share, 0.6);
   EXPECT_EQ(truth_.stairs[0].sighting.images.size(), 1U);
+}
+
+TEST_F(WitnessTest, AFlightIsSeenFromItsSideButNotFromBehindNorThroughItself) {
+  auto building = hallWithAFlight();
+  std::vector<Surface> steps;
+  for (int i = 0; i < 5; ++i) steps.push_back(step(building, i, 0.3));
+  build(building, steps);
+  look(1.0, cameraFrom({1.2, 4.0}, {1.2, 0.0}));
+  EXPECT_TRUE(truth_.stairs[0].sighting.visible);
+  EXPECT_EQ(truth_.stairs[0].sighting.share, 1.0);
+
+  // From behind and below, pixels of the flight's underside are where the camera would see risers through them.
+  for (auto& block : steps) {
+    for (auto& vertex : block.vertices) vertex.z() += 1.5F;
+  }
+  building.stairs[0].foot.z() = 1.5;
+  build(building, steps);
+  look(1.0, cameraFrom({-1.5, 0.0}, {2.0, 0.0}));
+  EXPECT_EQ(truth_.stairs[0].sighting.share, 0.0);
 }
 
 TEST_F(WitnessTest, WhatIsPassedLiesWithinThreeMetresAndNotBehindAWall) {

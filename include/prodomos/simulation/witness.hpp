@@ -22,6 +22,8 @@ evaluation::Truth truthOf(const Building& building, base::Time begin, std::uint6
 /// Goes with the robot and keeps account of what its camera has come to see (docs/truth.md says what counts as seen).
 class Witness {
  public:
+  static constexpr std::size_t kStepParts = 4;  ///< riser, tread, left and right end
+
   Witness(const Building& building, const CameraModel& camera, evaluation::Truth& truth);
 
   /// The robot stands there: rooms are entered, doors and stairs passed.
@@ -36,7 +38,7 @@ class Witness {
     std::vector<bool> isSeen;
     Eigen::AlignedBox3d box;
   };
-  using StepIsSeen = std::array<std::vector<bool>, 2>;  ///< by spot of its riser and of its tread
+  using StepIsSeen = std::array<std::vector<bool>, kStepParts>;  ///< by spot of each part
 
   static SampledPlane samplesOf(const evaluation::TruePlane& plane);
   void lookAtDoor(std::size_t index, base::Time time, double seconds, const View& view);
