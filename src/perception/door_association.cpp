@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -71,6 +72,28 @@ std::optional<double> distanceOfSame(const DoorPlace& a, const DoorPlace& b, con
   const double distance = offset.dot(covariance.ldlt().solve(offset)) + square(a.width - b.width) / widthVariance;
   if (!(distance < kGate)) return std::nullopt;
   return distance;
+}
+
+std::optional<map::HingeSide> hingeSideOfLeaf(const DoorPlace& leaf, const DoorPlace& door) {
+  constexpr double kLeastTurn = 0.2;   // radians
+  constexpr double kAtJamb = 0.22;     // metres; jambs of two doors beside a corner lie further apart
+  constexpr double kUnlike = 0.25;     // metres, of widths
+  constexpr double kWidestLeaf = 1.2;  // metres; wider doors have two
+  const Vector4 offset = offsetBetween(door, leaf);
+  const double leafWidth = door.width > kWidestLeaf ? door.width / 2.0 : door.width;
+  if (std::abs(offset[2]) > kGreatestRise || std::abs(offset[3]) < kLeastTurn) return std::nullopt;
+  if (std::abs(leaf.width - leafWidth) > kUnlike) return std::nullopt;
+  const auto endsOf = [](const DoorPlace& place) {
+    const Eigen::Vector2d toLeft(-std::sin(place.pose.w()), std::cos(place.pose.w()));
+    const Eigen::Vector2d middle = place.pose.head<2>();
+    return std::array<Eigen::Vector2d, 2>{middle + 0.5 * place.width * toLeft, middle - 0.5 * place.width * toLeft};
+  };
+  const auto jambs = endsOf(door);
+  for (const auto& end : endsOf(leaf)) {
+    if ((end - jambs[0]).norm() < kAtJamb) return map::HingeSide::kLeft;
+    if ((end - jambs[1]).norm() < kAtJamb) return map::HingeSide::kRight;
+  }
+  return std::nullopt;
 }
 
 bool standInOnePlace(const DoorPlace& a, const DoorPlace& b) {

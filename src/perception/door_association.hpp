@@ -24,6 +24,10 @@ DoorPlace placeOf(const DoorLandmark& door, const Frames& frames, const EntityMe
 /// in the wall, before it, in heading, height or width. Doors that only adjoin are two.
 std::optional<double> distanceOfSame(const DoorPlace& a, const DoorPlace& b, const EntityMemoryConfig& config);
 
+/// Whether what was taken for a closed door is the leaf of one that stands open: it hangs at a jamb, turned. Then on
+/// which side of the door, seen along its normal.
+std::optional<map::HingeSide> hingeSideOfLeaf(const DoorPlace& leaf, const DoorPlace& door);
+
 /// Two openings in the same stretch of wall, which cannot both be there.
 bool standInOnePlace(const DoorPlace& a, const DoorPlace& b);
 

@@ -54,6 +54,15 @@ class Examination {
   }
 
  private:
+  /// Where what is seen in a box lies, by blocks.
+  struct Places {
+    int known = 0;
+    int behind = 0;
+    int before = 0;
+
+    double shareBehind() const { return known < 5 ? 0.0 : static_cast<double>(behind) / known; }
+  };
+
   double leafZ(double z) const {
     const double height = wall_.wall().cameraHeight;
     return height + (z - height) * wall_.shrinkage(found_.leaf_y);
@@ -84,6 +93,7 @@ class Examination {
   void lookAtFoot();
   void lookAtLeaf();
   void lookAtSurroundings();
+  Places placesIn(const Box& unclipped) const;
   void lookAtHandle();
   void judgeView();
 
@@ -319,31 +329,42 @@ void Examination::lookAtLeaf() {
   found_.cue(Cue::kEdgeOfLeaf) = std::min(shareLike(atLeft, *color), shareLike(atRight, *color)) - 0.5;
 }
 
-/// A cupboard stands before what is around it.
+/// A cupboard stands before what is around it, and a leaf that is open out of its wall.
 void Examination::lookAtSurroundings() {
-  constexpr double kFar = 0.1;  // metres
+  constexpr int kEnough = 10;  // blocks
   const int near = columns(0.09);
   const int far = columns(0.35);
-  const auto behind = [&](const Box& unclipped) {
-    const Box box = clipped(unclipped, wall_);
-    int known = 0;
-    int deep = 0;
-    for (int row = box.top; row < box.bottom; row += RectifiedWall::kBlock) {
-      for (int column = box.first; column < box.last; column += RectifiedWall::kBlock) {
-        const float offset = wall_.offset(column, row);
-        if (std::isnan(offset)) continue;
-        ++known;
-        deep += static_cast<double>(offset) > found_.leaf_y + kFar + 2.0 * sigma_ ? 1 : 0;
-      }
-    }
-    return known < 5 ? 0.0 : static_cast<double>(deep) / known;
-  };
   const int top = wallRow(1.8);
   const int bottom = wallRow(0.4);
-  const double left = behind({first_ - far, first_ - near, top, bottom});
-  const double right = behind({last_ + near, last_ + far, top, bottom});
-  const double above = behind({first_, last_, wallRow(height_ + 0.35), wallRow(height_ + 0.12)});
-  found_.cue(Cue::kNothingAround) = (left + right + above) / 2.0;
+  const Box over{first_, last_, wallRow(height_ + 0.35), wallRow(height_ + 0.12)};
+  const Places left = placesIn({first_ - far, first_ - near, top, bottom});
+  const Places right = placesIn({last_ + near, last_ + far, top, bottom});
+  const Places above = placesIn(over);
+  found_.cue(Cue::kNothingAround) = (left.shareBehind() + right.shareBehind() + above.shareBehind()) / 2.0;
+  const int known = left.known + right.known + above.known;
+  const int apart = left.behind + left.before + right.behind + right.before + above.behind + above.before;
+  if (known >= kEnough) found_.cue(Cue::kApart) = static_cast<double>(apart) / known;
+  if (above.known >= kEnough) found_.cue(Cue::kTurnedAbove) = tiltedShare(profileOf(wall_, over), 0.015 + 1.5 * sigma_);
+}
+
+/// Of the wall's surface around a closed leaf, which lies at most a recess before it.
+Examination::Places Examination::placesIn(const Box& unclipped) const {
+  constexpr double kBehind = 0.1;   // metres
+  constexpr double kRecess = 0.25;  // metres
+  const double noise = 2.0 * sigma_;
+  const Box box = clipped(unclipped, wall_);
+  Places places;
+  for (int row = box.top; row < box.bottom; row += RectifiedWall::kBlock) {
+    for (int column = box.first; column < box.last; column += RectifiedWall::kBlock) {
+      const float offset = wall_.offset(column, row);
+      if (std::isnan(offset)) continue;
+      const double deeper = static_cast<double>(offset) - found_.leaf_y;
+      ++places.known;
+      places.behind += deeper > kBehind + noise ? 1 : 0;
+      places.before += deeper < -kRecess - noise ? 1 : 0;
+    }
+  }
+  return places;
 }
 
 void Examination::lookAtHandle() {

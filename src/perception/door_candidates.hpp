@@ -33,6 +33,8 @@ enum class Cue : std::uint8_t {
   kStandsOut,      ///< it lies before the wall around it: a panel, a poster, a board
   kRecessed,       ///< it lies behind it
   kNothingAround,  ///< share of its surroundings that lie far behind it: a cupboard
+  kApart,          ///< share of its surroundings that lie before or behind its wall: a leaf that stands open
+  kTurnedAbove,    ///< how much more of what is above it lies in a plane that is turned: likewise
   kHandle,         ///< something with corners where a handle must be
   kNarrow,         ///< less wide than doors are
   kWide,           ///< wider

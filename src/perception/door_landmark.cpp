@@ -135,8 +135,8 @@ void refresh(DoorLandmark& door, const Frames& frames, const EntityMemoryConfig&
   door.submap = bestSubmap(door, config.correlation);
   refreshPose(door, frames.seenFrom(door.submap), config);
   refreshSize(door, config.correlation);
-  door.hinge = 0.0;
-  door.leaf = 0.0;
+  door.hinge = door.hingeAside;
+  door.leaf = door.leafAside;
   for (const auto& look : door.looks) {
     if (look.sightings == 0) continue;
     const double share = Look::worth(look.sightings, config.correlation) / look.sightings;
@@ -156,6 +156,8 @@ void takeOver(DoorLandmark& kept, const DoorLandmark& other, const Frames& frame
     if (opposed) flip(look);
     kept.looks.push_back(look);
   }
+  kept.leafAside += other.leafAside;
+  kept.hingeAside += opposed ? -other.hingeAside : other.hingeAside;
   while (kept.looks.size() > kMostLooks) kept.looks.erase(std::ranges::min_element(kept.looks, {}, &Look::sightings));
   kept.takeOver(other);
 }

@@ -31,8 +31,10 @@ struct DoorLandmark : Landmark {
   double width = 0.0;
   double widthSigma = 0.0;
   double height = 0.0;
-  double hinge = 0.0;  ///< log-odds of the left side
-  double leaf = 0.0;   ///< log-odds that there is a leaf
+  double hinge = 0.0;      ///< log-odds of the left side
+  double leaf = 0.0;       ///< log-odds that there is a leaf
+  double leafAside = 0.0;  ///< of `leaf`, what was seen of it where it stood open, and of `hinge`
+  double hingeAside = 0.0;
   DoorStateFilter state;
   double closedLeafNow = 0.0;  ///< evidence for a leaf that the last reading gave by a closed one
   bool isRivalled = false;     ///< one that is likelier stands in the same place
@@ -40,7 +42,7 @@ struct DoorLandmark : Landmark {
   static void fields(auto& archive, auto& self) {
     Landmark::fields(archive, self);
     archive(self.looks, self.pose_in_submap, self.covariance, self.width, self.widthSigma, self.height, self.hinge,
-            self.leaf, self.state, self.closedLeafNow, self.isRivalled);
+            self.leaf, self.leafAside, self.hingeAside, self.state, self.closedLeafNow, self.isRivalled);
   }
 };
 

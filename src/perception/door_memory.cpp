@@ -166,7 +166,9 @@ void DoorMemory::update(const Frames& frames, const std::vector<std::size_t>& to
     }
   }
   for (const auto i : touched) {
-    for (std::size_t j = 0; j < landmarks_.size(); ++j) mergeIfSame(i, j, frames);
+    for (std::size_t j = 0; j < landmarks_.size(); ++j) {
+      if (!mergeIfSame(i, j, frames) && !takeLeaf(i, j, frames)) takeLeaf(j, i, frames);
+    }
   }
   for (const auto i : touched) settleRivals(i, frames);
   prune();
@@ -184,6 +186,24 @@ bool DoorMemory::mergeIfSame(std::size_t i, std::size_t j, const Frames& frames)
   takeOver(*kept, *other, frames);
   other->looks.clear();
   refresh(*kept, frames, config_);
+  return true;
+}
+
+bool DoorMemory::takeLeaf(std::size_t doorIndex, std::size_t leafIndex, const Frames& frames) {
+  constexpr double kHingeEvidence = 2.0;  // log-odds
+  auto& door = landmarks_[doorIndex];
+  auto& leaf = landmarks_[leafIndex];
+  if (doorIndex == leafIndex || door.looks.empty() || leaf.looks.empty()) return false;
+  const auto state = door.state.state();
+  const bool isOpen = !hasLeaf(door) || state == map::DoorState::kOpen || state == map::DoorState::kAjar;
+  if (!isOpen || door.logOdds < config_.certainty || !hasLeaf(leaf)) return false;
+  const auto side = hingeSideOfLeaf(placeOf(leaf, frames, config_), placeOf(door, frames, config_));
+  if (!side) return false;
+  door.leafAside += leaf.leaf;
+  door.hingeAside += *side == map::HingeSide::kLeft ? kHingeEvidence : -kHingeEvidence;
+  if (leaf.isTold) merged_.push_back(*leaf.id);
+  leaf.looks.clear();
+  refresh(door, frames, config_);
   return true;
 }
 

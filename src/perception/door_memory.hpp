@@ -37,6 +37,8 @@ class DoorMemory {
   /// Makes one of two; the place of the other stays, empty, until prune().
   bool mergeIfSame(std::size_t i, std::size_t j, const Frames& frames);
   void mergeAll(const Frames& frames);
+  /// A closed door that turns out to be the leaf of another one, which stands open.
+  bool takeLeaf(std::size_t door, std::size_t leaf, const Frames& frames);
   void settleRivals(std::size_t door, const Frames& frames);
   void prune();
   void takeBackLeaf(DoorLandmark& door, const Frames& frames, const RgbdView& view) const;

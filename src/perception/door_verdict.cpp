@@ -39,6 +39,8 @@ constexpr std::array<CueWeight, static_cast<std::size_t>(Cue::kCount)> kWeights{
     {"stands out", -2.34, -10.49},
     {"recessed", 1.08, 0.50},
     {"nothing around", -9.94, 0.00},
+    {"wall elsewhere", -4.75, 0.00},
+    {"wall turned", -6.43, 0.00},
     {"handle", 0.62, 0.25},
     {"narrow", -4.12, -4.31},
     {"wide", -2.57, -3.53},

@@ -175,6 +175,51 @@ TEST(DoorMemory, ADoorwayStaysOneUntilALeafIsSeen) {
   EXPECT_EQ(doorOf(bench.entities()[0]).state, DoorState::kAjar);
 }
 
+/// Taken for a closed door of its own: the leaf of a door at the origin, turned about its left jamb.
+WorldDoor leafOf(const WorldDoor& door, double angle) {
+  const Eigen::Vector2d hinge(0.0, door.width / 2.0);
+  const Eigen::Vector2d middle = hinge + door.width / 2.0 * Eigen::Vector2d(std::sin(angle), -std::cos(angle));
+  return {.pose = {middle.x(), middle.y(), angle}, .width = door.width, .hinge = HingeSide::kUnknown};
+}
+
+TEST(DoorMemory, ALeafTakenForAClosedDoorBelongsToItsOpenDoor) {
+  for (const double angle : {0.4, 0.8, 1.5}) {
+    MemoryBench bench;
+    SightingMaker maker(18);
+    const WorldDoor opening{.hasLeaf = false};
+    driveBy(bench, maker, leafOf(opening, angle), 8);
+    ASSERT_THAT(bench.entities(), SizeIs(1)) << angle;
+    driveBy(bench, maker, opening, 12, 10.0);
+    const auto entities = bench.entities();
+    ASSERT_THAT(entities, SizeIs(1)) << angle;
+    const auto pose = bench.inWorld(entities[0]);
+    EXPECT_LT(std::hypot(pose.x, pose.y), 0.04) << angle;
+    EXPECT_TRUE(doorOf(entities[0]).hasLeaf) << angle;
+    EXPECT_EQ(doorOf(entities[0]).hingeSide, HingeSide::kLeft) << angle;
+    EXPECT_EQ(doorOf(entities[0]).state, DoorState::kOpen) << angle;
+  }
+}
+
+TEST(DoorMemory, ADoorRoundTheCornerIsNoLeaf) {
+  const WorldDoor round{.pose = {0.35 + 0.45, 0.45 + 0.15, kPi / 2.0}, .hinge = HingeSide::kRight};
+  for (const bool hasLeaf : {false, true}) {
+    MemoryBench bench;
+    SightingMaker maker(19);
+    driveBy(bench, maker, {.hasLeaf = hasLeaf}, 12);
+    driveBy(bench, maker, round, 12, 10.0);
+    EXPECT_THAT(bench.entities(), SizeIs(2)) << hasLeaf;
+  }
+}
+
+TEST(DoorMemory, AClosedDoorHasNoLeafElsewhere) {
+  MemoryBench bench;
+  SightingMaker maker(20);
+  const WorldDoor door;
+  driveBy(bench, maker, door, 12);
+  driveBy(bench, maker, leafOf(door, 1.5), 12, 3.0);
+  EXPECT_THAT(bench.entities(), SizeIs(2));
+}
+
 TEST(DoorMemory, OneOddReadingDoesNotOpenADoorButAFewDo) {
   MemoryBench bench;
   SightingMaker maker(9);
