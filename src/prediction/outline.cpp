@@ -57,9 +57,11 @@ Piece takePiece(CellSet& cells, CellIndex start, bool byCorners) {
     piece.push_back(cell);
   };
   take(start);
-  for (std::size_t i = 0; i < piece.size(); ++i) {
+  std::size_t taken = 0;
+  while (taken < piece.size()) {
+    const auto cell = piece[taken++];
     for (std::size_t side = 0; side < kSteps.size(); ++side) {
-      const auto beside = piece[i] + kSteps[side];
+      const auto beside = cell + kSteps[side];
       take(beside);
       if (byCorners) take(beside + kSteps[(side + 1) % kSteps.size()]);
     }

@@ -23,7 +23,7 @@ struct ExtrapolationConfig {
   double doorSkew = 1.0;          ///< per metre of a door's width, c of α = c·w·ô
   double wall = 0.2;              ///< metres, of walls that one sees one side of
   double leastProbability = 0.9;  ///< of a cell to be floor of the room behind
-  double stairsSigma = 1.0;       ///< of eq. (2), in widths of the steps
+  double stairsSigma = 0.5;       ///< of eq. (2), in widths of the steps
   double personSigma = 0.35;      ///< metres, of eq. (5)
   double personSkew = 1.0;        ///< |α| of eq. (5), away from the dominant side
   double horizon = 1.5;           ///< seconds that a walk is extrapolated by
