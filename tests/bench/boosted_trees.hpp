@@ -3,6 +3,7 @@
 #pragma once
 
 #include "prodomos/base/random.hpp"
+
 #include "prediction/room_forest.hpp"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,13 @@ struct Samples {
     values.insert(values.end(), sample.begin(), sample.end());
     isTrue.push_back(outcome ? 1 : 0);
     weights.push_back(weight);
+  }
+  void append(const Samples& others) {
+    if (others.count() == 0) return;
+    features = others.features;
+    values.insert(values.end(), others.values.begin(), others.values.end());
+    isTrue.insert(isTrue.end(), others.isTrue.begin(), others.isTrue.end());
+    weights.insert(weights.end(), others.weights.begin(), others.weights.end());
   }
 };
 
@@ -57,7 +65,7 @@ class Booster {
       total += samples_.weights[i];
     }
     const double mean = std::clamp(sum / total, 1e-4, 1.0 - 1e-4);
-    forest.bias = static_cast<float>(std::log(mean / (1.0 - mean)));
+    forest.bias = rounded(std::log(mean / (1.0 - mean)));
     logits_.assign(samples_.count(), forest.bias);
     slopes_.resize(samples_.count());
     for (std::size_t i = 0; i < options_.trees; ++i) {
@@ -68,6 +76,7 @@ class Booster {
 
  private:
   static constexpr std::size_t kBins = 64;
+  static constexpr float kNever = 1000.0F;  // no feature is above
   static constexpr std::size_t kInner = prediction::Forest::kInner;
 
   /// Sums over samples: of gradients, and of second derivatives.
@@ -84,6 +93,9 @@ class Booster {
     std::size_t feature = 0;
     std::size_t bin = 0;
   };
+
+  /// To a thousandth: such numbers are short.
+  static float rounded(double value) { return static_cast<float>(std::round(value * 1000.0) / 1000.0); }
 
   void cutIntoBins() {
     const std::size_t count = samples_.count();
@@ -107,7 +119,8 @@ class Booster {
       }
       for (std::size_t i = 0; i < count; ++i) {
         const float value = samples_.values[i * samples_.features + f];
-        bins_[i * samples_.features + f] = static_cast<std::uint8_t>(std::ranges::lower_bound(edges, value) - edges.begin());
+        bins_[i * samples_.features + f] =
+            static_cast<std::uint8_t>(std::ranges::lower_bound(edges, value) - edges.begin());
       }
     }
   }
@@ -126,12 +139,13 @@ class Booster {
       if (random_.uniform() < options_.featureShare) features.push_back(f);
     }
     prediction::Forest::Tree tree;
-    tree.threshold.fill(std::numeric_limits<float>::max());
+    tree.threshold.fill(kNever);
     splitBin_.fill(255);
     growNode(tree, 0, drawn, features);
     for (std::size_t i = 0; i < count; ++i) {
       std::size_t node = 0;
-      while (node < kInner) node = 2 * node + (bins_[i * samples_.features + tree.feature[node]] > splitBin_[node] ? 2 : 1);
+      while (node < kInner)
+        node = 2 * node + (bins_[i * samples_.features + tree.feature[node]] > splitBin_[node] ? 2 : 1);
       logits_[i] += tree.leaf[node - kInner];
     }
     return tree;
@@ -145,26 +159,24 @@ class Booster {
       all.hessian += slopes_[i].hessian;
     }
     if (node >= kInner) {
-      tree.leaf[node - kInner] = static_cast<float>(options_.rate * all.gradient / (all.hessian + options_.ridge));
+      tree.leaf[node - kInner] = rounded(options_.rate * all.gradient / (all.hessian + options_.ridge));
       return;
     }
     const Split split = bestSplit(drawn, features, all);
     if (split.gain > 0.0) {
       tree.feature[node] = static_cast<std::uint8_t>(split.feature);
-      tree.threshold[node] = edges_[split.feature][split.bin];
+      tree.threshold[node] = rounded(edges_[split.feature][split.bin]);
       splitBin_[node] = static_cast<std::uint8_t>(split.bin);
     }
     const std::uint8_t* bins = bins_.data() + tree.feature[node];
-    const auto above = std::partition(drawn.begin(), drawn.end(), [&](auto i) {
-      return bins[i * samples_.features] <= splitBin_[node];
-    });
+    const auto above = std::partition(drawn.begin(), drawn.end(),
+                                      [&](auto i) { return bins[i * samples_.features] <= splitBin_[node]; });
     const auto below = static_cast<std::size_t>(above - drawn.begin());
     growNode(tree, 2 * node + 1, drawn.first(below), features);
     if (below < drawn.size()) growNode(tree, 2 * node + 2, drawn.subspan(below), features);
   }
 
-  Split bestSplit(std::span<const std::uint32_t> drawn, const std::vector<std::size_t>& features,
-                  const Sum& all) {
+  Split bestSplit(std::span<const std::uint32_t> drawn, const std::vector<std::size_t>& features, const Sum& all) {
     Split best;
     if (all.hessian < 2.0 * options_.leastHessian) return best;
     const auto score = [this](const Sum& sum) { return sum.gradient * sum.gradient / (sum.hessian + options_.ridge); };

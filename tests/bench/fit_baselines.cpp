@@ -7,80 +7,36 @@
 // of the other rooms 0, 30 and 60 %, drawn by seed: what is seen is known with its walls, 0.1 m thick. Each door with a
 // leaf between a seen room and an unseen one of at most 60 m², no corridor and no stairwell, is a case; its pose is the
 // true one. Prints what the sizes reach on training, validation and test plans to stderr.
-#include "prodomos/base/random.hpp"
 #include "prodomos/evaluation/baselines.hpp"
 #include "prodomos/evaluation/room_shapes.hpp"
 #include "prodomos/simulation/floor_plan.hpp"
 
+#include "support/plan_doors.hpp"
+
 #include <yaml-cpp/yaml.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <iomanip>
 #include <iostream>
-#include <numbers>
 #include <sstream>
 
 namespace prodomos {
 namespace {
 
-constexpr double kResolution = 0.1;  // metres, of cells; finer ones change the sizes by no step
-constexpr std::array kSharesSeen = {0.0, 0.3, 0.6};
-
 using Visit = std::function<void(const evaluation::DoorView&)>;
 
-std::vector<bool> drawSeen(const simulation::Building& building, double share) {
-  base::Random random(static_cast<std::uint64_t>(100 * share), "fit_baselines " + building.name);
-  std::vector<bool> seen;
-  for (const auto& room : building.rooms) {
-    seen.push_back(room.use == simulation::RoomUse::kCorridor || random.uniform() < share);
-  }
-  return seen;
-}
-
-/// Cells of the seen rooms and of the walls around them.
-evaluation::CellMap<std::uint8_t> knownCells(const simulation::Building& building, const std::vector<bool>& seen) {
-  std::vector<evaluation::Polygon> outlines;
-  for (const auto& room : building.rooms) outlines.push_back(room.outline);
-  evaluation::CellMap<std::uint8_t> known(evaluation::boxOf(outlines, kResolution), 0);
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (!seen[i]) continue;
-    for (const auto cell : evaluation::cellsIn(outlines[i], kResolution)) {
-      for (const int dy : {-1, 0, 1}) {
-        for (const int dx : {-1, 0, 1}) {
-          if (auto* value = known.find({cell.x + dx, cell.y + dy})) *value = 1;
-        }
-      }
-    }
-  }
-  return known;
-}
-
-bool isOrdinary(const simulation::Room& room) {
-  return room.use == simulation::RoomUse::kRoom &&
-         std::abs(simulation::signedArea(room.outline)) <= evaluation::kLargestRoom;
-}
-
 void visitDoors(const simulation::Building& building, double shareSeen, const Visit& visit) {
-  const auto seen = drawSeen(building, shareSeen);
-  const auto known = knownCells(building, seen);
+  const auto seen = test::drawSeen(building, shareSeen);
+  const auto known = test::seenCells(building, seen);
   const auto isKnown = [&known](const Eigen::Vector2d& point) {
-    return known.at(geometry::cellAt(point.x(), point.y(), kResolution)) != 0;
+    return known.at(geometry::cellAt(point.x(), point.y(), test::kPlanResolution)) != test::SeenCell::kUnknown;
   };
-  for (const auto& door : building.doors) {
-    if (door.leaves == 0) continue;
-    for (const std::size_t far : {0U, 1U}) {
-      const int room = door.rooms[far];
-      const int other = door.rooms[1 - far];
-      if (room == simulation::kOutside || other == simulation::kOutside) continue;
-      if (seen[static_cast<std::size_t>(room)] || !seen[static_cast<std::size_t>(other)]) continue;
-      const auto& unseen = building.rooms[static_cast<std::size_t>(room)];
-      if (!isOrdinary(unseen)) continue;
-      const double turn = far == 1 ? 0.0 : std::numbers::pi;
-      visit({door.pose * geometry::Pose2{0.0, 0.0, turn}, unseen.outline, isKnown, kResolution});
-    }
-  }
+  test::visitDoorsToUnseen(building, seen, [&](const simulation::Door& door, std::size_t far) {
+    const auto& unseen = building.rooms[static_cast<std::size_t>(door.rooms[far])];
+    if (!test::isOrdinary(unseen)) return;
+    visit({test::poseTowards(door, far), unseen.outline, isKnown, test::kPlanResolution});
+  });
 }
 
 void visitPlans(const std::filesystem::path& plans, const YAML::Node& names, const Visit& visit) {
@@ -88,7 +44,7 @@ void visitPlans(const std::filesystem::path& plans, const YAML::Node& names, con
     const auto plan = plans / name.as<std::string>();
     try {
       const auto building = simulation::readFloorPlan(plan, {});
-      for (const double share : kSharesSeen) visitDoors(building, share, visit);
+      for (const double share : test::kSharesSeen) visitDoors(building, share, visit);
     } catch (const std::exception& fault) {
       std::cerr << fault.what() << '\n';
     }
