@@ -14,8 +14,7 @@ namespace prodomos::perception {
 namespace {
 
 constexpr std::size_t kMostDirections = 4;
-constexpr double kBeyond = 0.5;  // metres
-constexpr double kNear = 0.3;    // metres
+constexpr double kBeyond = 0.5;  // metres farther than ways around it may lead
 constexpr double kApart = 0.5;   // metres; nearer ones are one doorway, seen in two directions or two faces of a wall
 
 DoorSighting sightingOf(const doorways::Opening& opening) {
@@ -28,6 +27,20 @@ DoorSighting sightingOf(const doorways::Opening& opening) {
   sighting.widthSigma = opening.sigma;
   sighting.evidence = opening.evidence;
   return sighting;
+}
+
+/// Most lines are none, and that is seen from near by.
+void appendOpeningsAcross(const doorways::CriticalLine& line, const map::OccupancyGrid& grid,
+                          const DoorwayDetectorConfig& config, std::vector<doorways::Opening>& openings) {
+  const double wallsReach = line.width() + config.leastWall + config.leastSpace;
+  std::vector<doorways::Opening> across;
+  for (const double reach : {wallsReach, config.leastDetour + kBeyond}) {
+    const doorways::Raster raster(grid, line.direction(), line.middle(), reach);
+    across.clear();
+    doorways::appendOpeningsAt(line.middle(), raster, config, across);
+    if (across.empty()) return;
+  }
+  openings.insert(openings.end(), across.begin(), across.end());
 }
 
 }  // namespace
@@ -53,13 +66,11 @@ std::vector<DoorSighting> findDoorways(const map::OccupancyGrid& grid, const Eig
     doorways::appendOpenings(raster, config, openings);
     doorways::appendOpenings(raster.turned(), config, openings);
   }
+  const auto isFound = [&openings](const Eigen::Vector2d& middle) {
+    return std::ranges::any_of(openings, [&](const auto& other) { return (other.middle - middle).norm() < kApart; });
+  };
   for (const auto& line : doorways::criticalLines(grid, config)) {
-    const doorways::Raster raster(grid, line.direction(), line.middle(), config.leastDetour + kBeyond);
-    std::vector<doorways::Opening> there;
-    doorways::appendOpeningsAt(raster, config, there);
-    std::ranges::copy_if(there, std::back_inserter(openings), [&line](const doorways::Opening& opening) {
-      return (opening.middle - line.middle()).norm() < kNear;
-    });
+    if (!isFound(line.middle())) appendOpeningsAcross(line, grid, config, openings);
   }
   std::stable_sort(openings.begin(), openings.end(),
                    [](const auto& a, const auto& b) { return a.evidence > b.evidence; });

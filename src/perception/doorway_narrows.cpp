@@ -82,7 +82,7 @@ class NarrowSearch {
   int neededWall(const Narrow& narrow) const;
   double wallAt(const Jamb& jamb, int most) const;
   double wallAlong(const Jamb& jamb, int most) const;
-  int lineFrom(int u, int v, int du, int dv, int most) const;
+  int lineFrom(int u, int v, double du, double dv, int most) const;
   bool isOneWall(const JambPair& jambs, const Narrow& narrow) const;
   bool isWallAndLeaf(const JambPair& jambs, const Narrow& narrow) const;
   double shareSeenThrough(const Narrow& narrow) const;
@@ -175,32 +175,26 @@ double NarrowSearch::wallAt(const Jamb& jamb, int most) const {
   return longest * raster_.step();
 }
 
-/// Along the opening, or up to 27 degrees askew.
+/// Along the opening, or up to 27 degrees askew: where two walls that are not in one line leave a gap.
 double NarrowSearch::wallAlong(const Jamb& jamb, int most) const {
-  constexpr int kMissing = 2;
   int longest = 0;
-  for (const double slope : {-0.5, -0.375, -0.25, -0.125, 0.0, 0.125, 0.25, 0.375, 0.5}) {
-    for (int v = jamb.first - 1; v <= jamb.last; ++v) {
-      int length = 0;
-      for (int i = 0; i < most && i - length <= kMissing; ++i) {
-        const int x = jamb.face + i * jamb.inward;
-        const int y = v + static_cast<int>(std::lround(slope * i));
-        if (raster_.isOccupied(x, y) || raster_.isOccupied(x, y + 1)) length = i + 1;
-      }
-      longest = std::max(longest, length);
-    }
+  for (int v = jamb.first - 1; v <= jamb.last; ++v) {
+    for (const double slope : {-0.5, -0.375, -0.25, -0.125, 0.0, 0.125, 0.25, 0.375, 0.5})
+      longest = std::max(longest, lineFrom(jamb.face, v, jamb.inward, slope, most));
   }
   return longest * raster_.step();
 }
 
 /// Cells of wall in a line two cells wide, which walls of other directions soon leave; up to the length that is needed.
-int NarrowSearch::lineFrom(int u, int v, int du, int dv, int most) const {
+int NarrowSearch::lineFrom(int u, int v, double du, double dv, int most) const {
   constexpr int kMissing = 2;
+  const int besideU = std::abs(du) < std::abs(dv) ? 1 : 0;
+  const int besideV = 1 - besideU;
   int length = 0;
   for (int i = 0; i < most && i - length <= kMissing; ++i) {
-    const int x = u + i * du;
-    const int y = v + i * dv;
-    if (raster_.isOccupied(x, y) || raster_.isOccupied(x + std::abs(dv), y + std::abs(du))) length = i + 1;
+    const int x = u + static_cast<int>(std::lround(i * du));
+    const int y = v + static_cast<int>(std::lround(i * dv));
+    if (raster_.isOccupied(x, y) || raster_.isOccupied(x + besideU, y + besideV)) length = i + 1;
   }
   return length;
 }
@@ -220,8 +214,7 @@ bool NarrowSearch::isOneWall(const JambPair& jambs, const Narrow& narrow) const 
   if (isWide && jambs.count(Beside::kOpen) < 4) return false;
   const auto [lessWall, moreWall] = std::minmax(jambs.left.wall, jambs.right.wall);
   const double needed = neededWall(narrow) * raster_.step();
-  if (lessWall >= needed) return true;
-  if (isAskew_) return false;
+  if (lessWall >= needed || isAskew_) return lessWall >= needed;
   const bool isAlike = std::abs(jambs.left.first - jambs.right.first) <= 1 &&
                        std::abs(jambs.left.last - jambs.right.last) <= 1 && jambs.count(Beside::kOpen) == 4;
   return isAlike && moreWall >= needed && lessWall >= kPillar;
@@ -312,7 +305,8 @@ std::optional<Opening> NarrowSearch::judge(const Narrow& narrow) const {
   const JambPair jambs{jambAt(narrow, narrow.left, -1), jambAt(narrow, narrow.right, 1)};
   const double width = narrow.right - narrow.left;
   const bool isPlain = isOneWall(jambs, narrow);
-  if (!isPlain && (isAskew_ || !isWallAndLeaf(jambs, narrow))) return std::nullopt;
+  const bool isBesideWall = !isAskew_ && isWallAndLeaf(jambs, narrow);
+  if (!isPlain && !isBesideWall) return std::nullopt;
   const int first = isPlain ? std::min(jambs.left.first, jambs.right.first) : jambs.thinner().first;
   const int last = isPlain ? std::max(jambs.left.last, jambs.right.last) : jambs.thinner().last;
   if (spaceFrom(narrow, first, -1) < cells(config_.leastSpace) * raster_.step() ||
@@ -324,7 +318,8 @@ std::optional<Opening> NarrowSearch::judge(const Narrow& narrow) const {
   opening.direction = raster_.direction() + 0.5 * std::numbers::pi;
   opening.width = width * raster_.step();
   opening.sigma = 0.5 * raster_.step();
-  const double shape = isPlain ? 0.5 : std::clamp(1.5 - 2.0 * (opening.width - 1.0), -1.5, 1.5);
+  // A wide one beside a longer wall may be the mouth of a corridor that crosses.
+  const double shape = isPlain ? 1.1 : std::clamp(2.1 - 2.0 * (opening.width - 1.0), -0.9, 2.1);
   opening.evidence = shape + 2.0 * (jambs.count(Beside::kOpen) - 3) + 3.0 * (seen - kLeastSeen);
   return opening;
 }
@@ -338,10 +333,13 @@ void appendOpenings(const Raster& raster, const DoorwayDetectorConfig& config, s
   }
 }
 
-void appendOpeningsAt(const Raster& raster, const DoorwayDetectorConfig& config, std::vector<Opening>& openings) {
+void appendOpeningsAt(const Eigen::Vector2d& middle, const Raster& raster, const DoorwayDetectorConfig& config,
+                      std::vector<Opening>& openings) {
+  constexpr double kNear = 0.3;  // metres
   const NarrowSearch search(raster, config, true);
   for (const auto& narrow : search.narrows()) {
-    if (const auto opening = search.judge(narrow)) openings.push_back(*opening);
+    const auto opening = search.judge(narrow);
+    if (opening && (opening->middle - middle).norm() < kNear) openings.push_back(*opening);
   }
 }
 

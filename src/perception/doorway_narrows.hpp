@@ -25,6 +25,9 @@ struct Opening {
 /// perpendicular wall and the ends of corridors that open into halls have in common, and corridors do not have.
 void appendOpenings(const Raster& raster, const DoorwayDetectorConfig& config, std::vector<Opening>& openings);
 
-void appendOpeningsAt(const Raster& raster, const DoorwayDetectorConfig& config, std::vector<Opening>& openings);
+/// The same about a point alone, in a raster whose rows lie along a gap rather than along walls: these must still lead
+/// to the gap, though they may do so a little askew.
+void appendOpeningsAt(const Eigen::Vector2d& middle, const Raster& raster, const DoorwayDetectorConfig& config,
+                      std::vector<Opening>& openings);
 
 }  // namespace prodomos::perception::doorways
