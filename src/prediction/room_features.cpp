@@ -23,6 +23,13 @@ constexpr double kBehindLeaf = 0.35;  // metres: the own wall is thinner
 constexpr double kOwnWall = 0.7;      // metres: doors no farther ahead or behind belong to it
 constexpr double kStep = 1.0;         // metres behind an opening, in the space that it leads to
 
+constexpr std::array kBeyond = {0.15, 0.75};  // metres beyond a wall that may be there
+
+float valueAt(const std::vector<float>& byCell, double distance) {
+  const auto cell = static_cast<std::size_t>(distance / kCell);
+  return cell < byCell.size() ? byCell[cell] : RoomFeatures::kFar;
+}
+
 /// False for what is not a number.
 bool isInWindow(const geometry::Pose2& pose) {
   const auto& box = Surroundings::kBox;
@@ -59,6 +66,9 @@ RoomFeatures::RoomFeatures(const Surroundings& around, double doorWidth, bool mi
     const double ahead = geometry::cellCentre(x, kCell);
     toLeft_.push_back(firstKnown(ahead, 0.05, kLeft).distance);
     toRight_.push_back(firstKnown(ahead, -0.05, kRight).distance);
+  }
+  for (int y = 0; y <= Surroundings::kBox.last.y; ++y) {
+    toEnd_.push_back(firstKnown(kBehindLeaf, geometry::cellCentre(y, kCell), kAhead).distance);
   }
   seenLeft_ = seenRoom(1);
   seenRight_ = seenRoom(-1);
@@ -240,8 +250,7 @@ const std::vector<float>& RoomFeatures::ofSide(double across, double other) {
   float soonest = kFar;
   for (std::size_t i = 1; i < 5; ++i) soonest = std::min(soonest, rowsLeft_[i].distance);
   tell(soonest - u);
-  tell(firstKnown(kBehindLeaf, across + 0.15, kAhead).distance);
-  tell(firstKnown(kBehindLeaf, across + 0.75, kAhead).distance);
+  for (const double more : kBeyond) tell(valueAt(toEnd_, across + more));
   tell(competition(1.5, across));
   tell(competition(3.5, across));
   tell(opposite_.empty() ? kFar : static_cast<float>(opposite_[0]) - u);
@@ -268,10 +277,9 @@ const std::vector<float>& RoomFeatures::ofEnd(double ahead, double width) {
   tell(std::min({columns_[2].distance, columns_[3].distance, columns_[4].distance}) - v);
   tell(seenLeft_.depth - v);
   tell(seenRight_.depth - v);
-  for (const double more : {0.15, 0.75}) {
-    const auto row = static_cast<std::size_t>((ahead + more) / kCell);
-    tell(row < toLeft_.size() ? toLeft_[row] : kFar);
-    tell(row < toRight_.size() ? toRight_[row] : kFar);
+  for (const double more : kBeyond) {
+    tell(valueAt(toLeft_, ahead + more));
+    tell(valueAt(toRight_, ahead + more));
   }
   tell(competition(ahead, 0.0));
   tell(oppositeAhead_ - v);

@@ -86,6 +86,7 @@ class RoomFeatures {
   std::array<Hit, 7> columns_;  ///< what is known first ahead, in columns kColumns to the left
   std::vector<float> toLeft_;   ///< where it is, by cells ahead
   std::vector<float> toRight_;
+  std::vector<float> toEnd_;  ///< what is known first ahead, by cells to the left
   SeenRoom seenLeft_;
   SeenRoom seenRight_;
   std::vector<float> door_;

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "prodomos/base/random.hpp"
-#include "prodomos/geometry/cells.hpp"
 #include "prodomos/evaluation/room_shapes.hpp"
+#include "prodomos/geometry/cells.hpp"
 #include "prodomos/simulation/building.hpp"
 
 #include <algorithm>
