@@ -3,7 +3,8 @@
 //
 // floor_baselines FLOORS
 //
-// What the trivial predictors of rooms reach on floors that they were not fitted to, drawn by others: in each folder of
+// What the trivial predictors of rooms, and the guess of the room behind a door, reach on floors that they were not
+// fitted to, drawn by others: in each folder of
 // FLOORS (buildings/floors) occ_map.npy, 0 where there is a wall, and valid_space.npy, the number of the room of each
 // pixel, 0 for none; 10 pixels a metre. A door is where the pixels of two rooms meet along 0.6 to 2.5 m, or a gap of
 // that width that is free and of no room, between two. A space with four doors or more is a corridor. Corridors count
@@ -13,6 +14,9 @@
 #include "prodomos/base/random.hpp"
 #include "prodomos/evaluation/baselines.hpp"
 #include "prodomos/evaluation/room_shapes.hpp"
+#include "prodomos/prediction/room_guess.hpp"
+
+#include "support/seen_world.hpp"
 
 #include <algorithm>
 #include <array>
@@ -33,7 +37,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kPixel = 0.1;  // metres
-constexpr std::array kSharesSeen = {0.0, 0.3, 0.6};
 constexpr std::size_t kDoorsOfCorridor = 4;
 constexpr int kWall = 0;
 constexpr double kLeastWidth = 0.6;  // metres, of a door
@@ -90,10 +93,12 @@ class Floor {
   struct Door {
     std::array<int, 2> rooms{};
     geometry::Pose2 pose;  ///< x-axis into rooms[1]
+    double width = 0.0;    ///< metres
   };
 
   const std::string& name() const { return name_; }
   const std::vector<Door>& doors() const { return doors_; }
+  geometry::CellBox box() const { return {{-1, -1}, {rooms_.width, rooms_.height}}; }
   int roomAt(geometry::CellIndex cell) const { return rooms_.at(cell.x, rooms_.height - 1 - cell.y); }
 
   std::set<int> corridors() const {
@@ -209,7 +214,8 @@ class Floor {
       if (width < kLeastWidth || width > kMostWidth || kPixel * reach > kMostDepth) continue;
       if (roomAhead(reach) == rooms[0] && roomAhead(-reach) == rooms[1]) std::swap(rooms[0], rooms[1]);
       if (roomAhead(reach) != rooms[1] || roomAhead(-reach) != rooms[0]) continue;
-      doors_.push_back({rooms, {kPixel * middle.x(), kPixel * middle.y(), alongX ? 0.5 * std::numbers::pi : 0.0}});
+      doors_.push_back(
+          {rooms, {kPixel * middle.x(), kPixel * middle.y(), alongX ? 0.5 * std::numbers::pi : 0.0}, width});
       return;
     }
   }
@@ -226,49 +232,73 @@ struct Reached {
   double halfDisc = 0.0;
   double fixedBox = 0.0;
   double clippedBox = 0.0;
+  double guess = 0.0;
   double oracleBox = 0.0;
 
-  void add(const evaluation::DoorView& view) {
+  void add(const evaluation::DoorView& view, const evaluation::Polygon& guessed_in_world) {
     const auto& sizes = evaluation::trainedBaselines();
     const auto radius = static_cast<std::size_t>(std::lround(sizes.halfDiscRadius / evaluation::kRadiusStep)) - 1;
     ++count;
     halfDisc += view.iousOfHalfDiscs()[radius];
     fixedBox += view.iou(sizes.fixedBox);
     clippedBox += view.iouClipped(sizes.clippedBox);
+    guess += view.iou(guessed_in_world);
     oracleBox += view.iou(view.bestBox());
   }
   void print(const std::string& name) const {
     const auto mean = [this](double sum) { return count == 0 ? 0.0 : sum / static_cast<double>(count); };
-    std::printf("%-18s %6zu %10.3f %10.3f %12.3f %11.3f\n", name.c_str(), count, mean(halfDisc), mean(fixedBox),
-                mean(clippedBox), mean(oracleBox));
+    std::printf("%-18s %6zu %10.3f %10.3f %12.3f %7.3f %11.3f\n", name.c_str(), count, mean(halfDisc), mean(fixedBox),
+                mean(clippedBox), mean(guess), mean(oracleBox));
   }
 };
 
+/// Seen rooms, and the walls around them, a pixel thick.
+test::SeenWorld worldOf(const Floor& floor, const std::set<int>& seen) {
+  geometry::CellMap<map::CellState> cells(floor.box(), map::CellState::kUnknown);
+  for (int y = floor.box().first.y; y <= floor.box().last.y; ++y) {
+    for (int x = floor.box().first.x; x <= floor.box().last.x; ++x) {
+      if (seen.contains(floor.roomAt({x, y}))) {
+        *cells.find({x, y}) = map::CellState::kFree;
+        continue;
+      }
+      for (const int dy : {-1, 0, 1}) {
+        for (const int dx : {-1, 0, 1}) {
+          if (seen.contains(floor.roomAt({x + dx, y + dy}))) *cells.find({x, y}) = map::CellState::kOccupied;
+        }
+      }
+    }
+  }
+  return {std::move(cells), kPixel};
+}
+
+evaluation::Polygon guessedRoom(const Floor& floor, const Floor::Door& door, const geometry::Pose2& T_world_door,
+                                const std::set<int>& seen, const test::SeenWorld& world) {
+  auto around = world.around(T_world_door);
+  for (const auto& other : floor.doors()) {
+    if (&other == &door || (!seen.contains(other.rooms[0]) && !seen.contains(other.rooms[1]))) continue;
+    around.openings.push_back(
+        {.id = {}, .T_here_opening = geometry::inverse(T_world_door) * other.pose, .width = other.width});
+  }
+  return geometry::transformed(T_world_door, prediction::guessRoom(around, door.width).outline_here);
+}
+
 void visitDoors(const Floor& floor, double shareSeen, Reached& reached, Reached& all) {
   auto seen = floor.corridors();
-  const auto corridors = seen;
   base::Random random(static_cast<std::uint64_t>(100 * shareSeen), "floor_baselines " + floor.name());
   for (int room = 1; room < 256; ++room) {
     if (random.uniform() < shareSeen) seen.insert(room);
   }
-  const auto isKnown = [&](const Eigen::Vector2d& point) {
-    const auto cell = geometry::cellAt(point.x(), point.y(), kPixel);
-    for (const int dy : {-1, 0, 1}) {
-      for (const int dx : {-1, 0, 1}) {
-        if (seen.contains(floor.roomAt({cell.x + dx, cell.y + dy}))) return true;
-      }
-    }
-    return false;
-  };
+  const auto world = worldOf(floor, seen);
+  const auto isKnown = [&](const Eigen::Vector2d& point) { return world.at(point) != map::CellState::kUnknown; };
   for (const auto& door : floor.doors()) {
     for (const std::size_t far : {0U, 1U}) {
       if (seen.contains(door.rooms[far]) || !seen.contains(door.rooms[1 - far])) continue;
-      const double turn = far == 1 ? 0.0 : std::numbers::pi;
-      const evaluation::DoorView view(door.pose * geometry::Pose2{0.0, 0.0, turn}, floor.outlineOf(door.rooms[far]),
-                                      isKnown, kPixel);
+      const auto T_world_door = door.pose * geometry::Pose2{0.0, 0.0, far == 1 ? 0.0 : std::numbers::pi};
+      const evaluation::DoorView view(T_world_door, floor.outlineOf(door.rooms[far]), isKnown, kPixel);
       if (view.roomArea() > evaluation::kLargestRoom) continue;
-      reached.add(view);
-      all.add(view);
+      const auto guessed = guessedRoom(floor, door, T_world_door, seen, world);
+      reached.add(view, guessed);
+      all.add(view, guessed);
     }
   }
 }
@@ -279,13 +309,13 @@ int run(const fs::path& folder) {
     if (fs::exists(entry.path() / "valid_space.npy")) folders.push_back(entry.path());
   }
   std::ranges::sort(folders);
-  std::printf("%-18s %6s %10s %10s %12s %11s   (mean IoU)\n", "floor", "cases", "half-disc", "fixed box", "clipped box",
-              "oracle box");
+  std::printf("%-18s %6s %10s %10s %12s %7s %11s   (mean IoU)\n", "floor", "cases", "half-disc", "fixed box",
+              "clipped box", "guess", "oracle box");
   std::map<double, Reached> byShare;
   for (const auto& path : folders) {
     const Floor floor(path);
     Reached reached;
-    for (const double share : kSharesSeen) visitDoors(floor, share, reached, byShare[share]);
+    for (const double share : test::kSharesSeen) visitDoors(floor, share, reached, byShare[share]);
     reached.print(floor.name());
   }
   for (const auto& [share, reached] : byShare) {

@@ -19,8 +19,8 @@
 /// Doors of floor plans some of whose rooms have been seen: what predictors of rooms are fitted to and compared on.
 namespace prodomos::test {
 
-constexpr double kPlanResolution = 0.1;  // metres, of cells; finer ones change the sizes of baselines by no step
-constexpr std::array kSharesSeen = {0.0, 0.3, 0.6};
+inline constexpr double kPlanResolution = 0.1;  // metres, of cells; finer ones change the sizes of baselines by no step
+inline constexpr std::array kSharesSeen = {0.0, 0.3, 0.6};
 
 /// All corridors, and a share of the other rooms, drawn by seed.
 inline std::vector<bool> drawSeen(const simulation::Building& building, double share, std::uint64_t seed) {
