@@ -175,11 +175,11 @@ double NarrowSearch::wallAt(const Jamb& jamb, int most) const {
   return longest * raster_.step();
 }
 
-/// Along the opening, or up to 27 degrees askew: where two walls that are not in one line leave a gap.
+/// Along the opening, or up to 21 degrees askew: where two walls that are not in one line leave a gap.
 double NarrowSearch::wallAlong(const Jamb& jamb, int most) const {
   int longest = 0;
   for (int v = jamb.first - 1; v <= jamb.last; ++v) {
-    for (const double slope : {-0.5, -0.375, -0.25, -0.125, 0.0, 0.125, 0.25, 0.375, 0.5})
+    for (const double slope : {-0.375, -0.25, -0.125, 0.0, 0.125, 0.25, 0.375})
       longest = std::max(longest, lineFrom(jamb.face, v, jamb.inward, slope, most));
   }
   return longest * raster_.step();
@@ -209,7 +209,9 @@ bool NarrowSearch::isOneWall(const JambPair& jambs, const Narrow& narrow) const 
   if (!isThin(jambs.left) || !isThin(jambs.right)) return false;
   if (jambs.count(Beside::kOpen) < 3 || jambs.count(Beside::kBlocked) > 0) return false;
   if (jambs.thinner().rows() < kLeastRows || jambs.rowsMore() > 2) return false;
-  if (std::abs(jambs.shift()) > 1.0 + kAskew * (narrow.right - narrow.left)) return false;
+  // The shortest way between walls that lie askew leads from a corner of one to the opposite corner of the other.
+  const double allowedShift = 1.0 + (isAskew_ ? jambs.thinner().rows() : kAskew * (narrow.right - narrow.left));
+  if (std::abs(jambs.shift()) > allowedShift) return false;
   const bool isWide = narrow.right - narrow.left > cells(kWide);
   if (isWide && jambs.count(Beside::kOpen) < 4) return false;
   const auto [lessWall, moreWall] = std::minmax(jambs.left.wall, jambs.right.wall);

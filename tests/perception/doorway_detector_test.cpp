@@ -5,6 +5,8 @@
 #include "prodomos/base/random.hpp"
 #include "prodomos/geometry/pose.hpp"
 
+#include "perception/doorway_lines.hpp"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -146,6 +148,37 @@ TEST(DoorwayDetector, FindsWhereACorridorOpensIntoAHall) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NEAR(found.front().T_submap_door.translation().x(), -0.085, 0.08);
   EXPECT_NEAR(found.front().door.width, 1.76, 0.08);
+}
+
+TEST(DoorwayDetector, FindsAGapThatLiesAskewBetweenWallsThatAreNotInOneLine) {
+  Plan plan;  // two walls across a hall, 0.35 m apart in depth: where a corridor bends
+  plan.addBox({-3.2, -4.0}, {-3.0, 4.0});
+  plan.addBox({3.0, -4.0}, {3.2, 4.0});
+  plan.addBox({-3.0, -0.08}, {-0.5, 0.08});
+  plan.addBox({0.5, 0.27}, {3.0, 0.43});
+  const auto found = doorwaysIn(plan, kBothSides);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found.front().T_submap_door.translation().x(), 0.0, 0.1);
+  EXPECT_NEAR(found.front().T_submap_door.translation().y(), 0.17, 0.12);
+  EXPECT_NEAR(geometry::yaw(found.front().T_submap_door), 0.5 * std::numbers::pi + std::atan2(0.35, 1.0), 0.25);
+  EXPECT_NEAR(found.front().door.width, 1.05, 0.12);
+}
+
+TEST(DoorwayDetector, TheWayFromCornerToCornerIsNone) {
+  Plan plan;  // two rooms that share a corner of free floor: their walls do not lead to the gap
+  plan.addBox({-4.0, -4.0}, {-0.4, -0.4});
+  plan.addBox({0.4, 0.4}, {4.0, 4.0});
+  EXPECT_TRUE(doorwaysIn(plan, {{-2.0, 2.0}, {-0.6, 0.8}, {0.6, -0.8}, {2.0, -2.0}}).empty());
+}
+
+TEST(DoorwayDetector, CriticalLinesLieWhereTheSpaceIsNarrowest) {
+  const Pose2 T_world_plan{1.0, 2.0, 0.4};
+  const auto grid = gridOf(twoRooms(T_world_plan, -0.45, 0.45), kBothSides);
+  const auto lines = doorways::criticalLines(grid, {});
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_NEAR((lines.front().middle() - Eigen::Vector2d(1.0, 2.0)).norm(), 0.0, 0.12);
+  EXPECT_NEAR(lines.front().width(), 0.9, 0.1);
+  EXPECT_TRUE(doorways::criticalLines(map::OccupancyGrid(), {}).empty());
 }
 
 TEST(DoorwayDetector, ADoorThatStandsOpenIsAnOpening) {
