@@ -176,7 +176,8 @@ void describe(base::ConfigVisitor& visitor, ExtrapolationConfig& config) {
   visitor.key("door_distance", config.doorDistance, "m", {0.0, 3.0}, "from a door to the sub-map predicted behind it");
   visitor.key("door_sigma", config.doorSigma, "m", {0.05, 10.0}, "spread of the floor predicted behind a door");
   visitor.key("door_skew", config.doorSkew, "1/m", {0.0, 100.0}, "how much of it lies ahead, by the door's width");
-  visitor.key("wall", config.wall, "m", {0.0, 1.0}, "thickness of walls of which one side was seen");
+  visitor.key("wall", config.wall, "m", {0.0, 1.0},
+              "from a leaf, and from the side of a wall that was seen, to its other side");
   visitor.key("least_probability", config.leastProbability, "", {0.0, 1.0},
               "floor behind a door is told where it is as likely to be that of the room");
   visitor.key("stairs_sigma", config.stairsSigma, "", {0.05, 10.0},

@@ -168,7 +168,7 @@ TEST(Extrapolation, NothingBeyondALongWallIsClaimed) {
     const Vector2d foot(random.uniform(0.5, 2.5), random.uniform(-1.0, 1.0));
     const double angle = random.uniform(-1.2, 1.2);
     const Vector2d normal(std::cos(angle), std::sin(angle));
-    if (foot.dot(normal) < 0.4) continue;
+    if (foot.dot(normal) < 1.0) continue;
     Surroundings around;
     for (double along = -15.0; along < 15.0; along += 0.02) {
       const Vector2d point = foot + along * Vector2d(-normal.y(), normal.x());
