@@ -6,6 +6,7 @@
 
 #include "perception/staircase_drawing.hpp"
 #include "perception/staircase_lattice.hpp"
+#include "perception/staircase_outline.hpp"
 #include "perception/staircase_sighting.hpp"
 #include "perception/staircase_steps.hpp"
 
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace prodomos::perception {
 
@@ -208,6 +210,16 @@ double mostRoughness(std::size_t steps) {
   return 0.25 + 0.035 * static_cast<double>(std::min(steps, kMostSteps));
 }
 
+/// Does the other, which leads the same way, lie in the flight's slope or where its rails are?
+bool isOfFlight(const StaircaseSighting& flight, const StaircaseSighting& other) {
+  constexpr double kTurn = 0.5;  // radians
+  const Eigen::Vector3d between = flight.T_submap_stairs.inverse() * other.T_submap_stairs.translation();
+  const double turn = geometry::yaw(other.T_submap_stairs) - geometry::yaw(flight.T_submap_stairs);
+  const double above = between.z() - flight.slope * between.x();
+  return std::abs(geometry::normalizeAngle(turn)) < kTurn && above > -kBelow && above < kRails &&
+         std::abs(between.y()) < 0.5 * (flight.width + other.width);
+}
+
 std::optional<StaircaseSighting> flightOn(const Plane& slope, const std::vector<StairCell>& slab, const RgbdView& view,
                                           const Surfaces& surfaces, const Material& material) {
   const Pose3 T_submap_slope = flightFrame(slope, slab);
@@ -248,6 +260,10 @@ std::vector<StaircaseSighting> findStaircases(const RgbdView& view, const Surfac
     } else {
       removeSlab(*slope, material.voxels);
     }
+  }
+  for (StaircaseSighting& beside : findFlightsBeside(view, surfaces)) {
+    const bool isKnown = std::ranges::any_of(sightings, [&](const auto& other) { return isOfFlight(other, beside); });
+    if (!isKnown) sightings.push_back(std::move(beside));
   }
   if (debug != nullptr && debug->isWanted()) debug->add("stairs", drawStaircases(view, surfaces, sightings));
   return sightings;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perception/staircase_outline.hpp"
 
+#include "perception/numeric.hpp"
 #include "perception/staircase_lattice.hpp"
 #include "perception/staircase_sighting.hpp"
 #include "perception/staircase_steps.hpp"
@@ -9,8 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -24,17 +23,19 @@ using geometry::Pose3;
 using sensors::DepthGrid;
 
 constexpr double kUpright = 1.35;         // radians of tilt: 77 degrees and more
-constexpr double kOnPlane = 0.03;         // metres off a side's plane, but for noise
+constexpr double kOnPlane = 0.02;         // metres off a side's plane, but for noise
 constexpr std::size_t kLeastPoints = 24;  // of an outline
-constexpr double kLeastShare = 0.15;      // of these, that belong to treads, and to risers
+constexpr double kLeastShare = 0.2;       // of these, that belong to treads, and to risers
 constexpr double kBand = 0.18;            // metres that steps stand out of their slope, both sides together
 constexpr double kBin = 0.03;             // metres
 constexpr double kLeastLength = 0.7;      // metres along the slope: three steps
+constexpr double kStraight = 0.016;       // metres that a rail's edge deviates from its slope
+constexpr int kMostOutlines = 3;          // of a side: there may be rails over the steps
 constexpr double kGap = 0.25;             // metres along the slope
-constexpr double kMostRoughness = 0.5;    // of points half a cell off
-constexpr std::size_t kLeastSteps = 3;
-constexpr int kMostStep = 30;        // from the outline's middle, either way
-constexpr double kUsualWidth = 1.2;  // metres, where nothing tells
+constexpr double kMostRoughness = 0.6;    // of points half a cell off
+constexpr int kLeastSteps = 4;            // three alike there may be in a row of things by chance
+constexpr int kMostStep = 30;             // from the outline's middle, either way
+constexpr double kUsualWidth = 1.2;       // metres, where nothing tells
 constexpr double kLeastWidth = 0.6;
 constexpr double kMostWidth = 2.5;
 constexpr double kThickness = 0.5;  // metres of a flight below the inner corners of its steps, at most
@@ -43,94 +44,146 @@ constexpr std::array kSlopes = {0.36, 0.44, 0.52, 0.60, 0.68, 0.76, 0.86, 0.98};
 /// A spot on a patch's edge, past which one looks on.
 struct EdgePoint {
   Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< metres to the right, seen from the camera, and up
-  double sigma = 0.0;                               ///< metres: half a cell
+  double sigma = 0.0;                               ///< metres: half a pixel
   int past = 0;                                     ///< 0: above it one looks on; 1: to its right; -1: to its left
 };
 
-/// An upright patch that may be the side of a flight.
+/// An upright patch that may be the side of a flight. Its steps are small: one looks at pixels, not at cells.
 class Side {
  public:
   Side(const RgbdView& view, const Surfaces& surfaces, const PlanarPatch& patch)
-      : grid_(surfaces.depth),
-        T_submap_camera_(view.T_submap_camera),
-        T_camera_submap_(view.T_submap_camera.inverse()),
+      : depth_(view.frame.depth),
+        grid_(surfaces.depth),
         patch_(patch),
-        right_(Eigen::Vector3d::UnitZ().cross(patch.plane_in_submap.normal).normalized()) {}
+        T_camera_submap_(view.T_submap_camera.inverse()),
+        plane_in_camera_(geometry::transformed(T_camera_submap_, patch.plane_in_submap)),
+        right_(Eigen::Vector3d::UnitZ().cross(patch.plane_in_submap.normal).normalized()),
+        middle_(patch.centroid_in_submap) {}
 
   const Eigen::Vector3d& right() const { return right_; }
+  Eigen::Vector3d pointAt(const Eigen::Vector2d& place) const {
+    return middle_ + place.x() * right_ + place.y() * Eigen::Vector3d::UnitZ();
+  }
   /// Upper and lateral edges. The lower ones tell nothing of steps.
   std::vector<EdgePoint> edge() const;
-  Eigen::Vector3d pointAt(const Eigen::Vector2d& place) const;
 
   enum class Shown { kNothing, kSide, kPast };
   /// What the view shows where that spot of the plane is; nothing where it is out of the image or something hides it.
   Shown at(const Eigen::Vector3d& spot_in_submap) const;
 
  private:
-  /// Metres before the plane; unknown depth is far behind it.
-  double before(const DepthGrid::Cell& cell) const {
-    constexpr double kFar = 100.0;
-    if (!(cell.depth > 0.0F)) return -kFar;
-    return patch_.plane_in_submap.signedDistance(T_submap_camera_ * pointOf(cell));
+  Shown at(int u, int v, const Eigen::Vector3d& ray) const;
+  Eigen::Vector2d placeOf(const Eigen::Vector3d& ray) const;
+  /// As the treads behind the side are.
+  bool isTurnedAway(const DepthGrid::Cell& cell) const {
+    constexpr double kCosine = 0.4;
+    const Eigen::Vector3d normal = normalOf(cell);
+    return !normal.isZero() && normal.dot(plane_in_camera_.normal) < kCosine;
   }
-  static double tolerance(const DepthGrid::Cell& cell) {
-    return kOnPlane + 2.5 * sensors::depthSigma(static_cast<double>(cell.depth));
-  }
-  /// Where the cell's ray meets the plane.
-  Eigen::Vector3d onPlane(const DepthGrid::Cell& cell) const;
+  void addEdge(int x, int y, int dx, int dy, std::vector<EdgePoint>& points) const;
 
+  const sensors::Image<float>& depth_;
   const DepthGrid& grid_;
-  const Pose3& T_submap_camera_;
-  Pose3 T_camera_submap_;
   const PlanarPatch& patch_;
+  Pose3 T_camera_submap_;
+  geometry::Plane plane_in_camera_;
   Eigen::Vector3d right_;  ///< along the plane, level
+  Eigen::Vector3d middle_;
 };
 
-Eigen::Vector3d Side::onPlane(const DepthGrid::Cell& cell) const {
-  const Eigen::Vector3d eye = T_submap_camera_.translation();
-  const Eigen::Vector3d ray =
-      T_submap_camera_.linear() * Eigen::Vector3d(static_cast<double>(cell.rayX), static_cast<double>(cell.rayY), 1.0);
-  const auto& plane = patch_.plane_in_submap;
-  return eye - plane.signedDistance(eye) / plane.normal.dot(ray) * ray;
+Eigen::Vector3d rayOf(const DepthGrid::Cell& cell) {
+  return {static_cast<double>(cell.rayX), static_cast<double>(cell.rayY), 1.0};
 }
 
-Eigen::Vector3d Side::pointAt(const Eigen::Vector2d& place) const {
-  const Eigen::Vector3d& middle = patch_.centroid_in_submap;
-  return middle + (place.x() - right_.dot(middle)) * right_ + (place.y() - middle.z()) * Eigen::Vector3d::UnitZ();
+/// Where the ray meets the plane.
+Eigen::Vector2d Side::placeOf(const Eigen::Vector3d& ray) const {
+  const Eigen::Vector3d point_in_camera = plane_in_camera_.offset / plane_in_camera_.normal.dot(ray) * ray;
+  const Eigen::Vector3d off = T_camera_submap_.linear().transpose() * (point_in_camera - T_camera_submap_ * middle_);
+  return {right_.dot(off), off.z()};
+}
+
+Side::Shown Side::at(int u, int v, const Eigen::Vector3d& ray) const {
+  const auto depth = static_cast<double>(depth_(u, v));
+  if (!(depth > 0.0)) return Shown::kPast;
+  const double before = plane_in_camera_.signedDistance(depth * ray);
+  const double slant = std::abs(plane_in_camera_.normal.dot(ray));
+  const double tolerance = kOnPlane + 2.5 * slant * sensors::depthSigma(depth);
+  if (before > tolerance) return Shown::kNothing;
+  return before < -tolerance ? Shown::kPast : Shown::kSide;
+}
+
+/// Calls use(index, x, y, dx, dy) for each of the cell's neighbours.
+template <typename Use>
+void eachNeighbour(const DepthGrid& grid, std::uint32_t cell, const Use& use) {
+  const int x = static_cast<int>(cell) % grid.width();
+  const int y = static_cast<int>(cell) / grid.width();
+  for (const auto& [dx, dy] : {std::pair(-1, 0), std::pair(1, 0), std::pair(0, -1), std::pair(0, 1)}) {
+    if (x + dx < 0 || y + dy < 0 || x + dx >= grid.width() || y + dy >= grid.height()) continue;
+    use(static_cast<std::size_t>((y + dy) * grid.width() + x + dx), x, y, dx, dy);
+  }
 }
 
 std::vector<EdgePoint> Side::edge() const {
-  std::vector<EdgePoint> points;
-  for (const std::uint32_t index : patch_.cells) {
-    const int x = static_cast<int>(index) % grid_.width();
-    const int y = static_cast<int>(index) / grid_.width();
-    for (const auto& [u, v] : {std::pair(x - 1, y), std::pair(x + 1, y), std::pair(x, y - 1), std::pair(x, y + 1)}) {
-      if (u < 0 || v < 0 || u >= grid_.width() || v >= grid_.height()) continue;
-      const DepthGrid::Cell& next = grid_.at(u, v);
-      if (before(next) > -tolerance(next)) continue;
-      const Eigen::Vector3d here = onPlane(grid_.at(x, y));
-      const Eigen::Vector3d out = onPlane(next) - here;
-      const double across = right_.dot(out);
-      const bool isAbove = std::abs(out.z()) > std::abs(across);
-      if (isAbove && out.z() < 0.0) continue;
-      const Eigen::Vector3d middle = here + 0.5 * out;
-      points.push_back({{right_.dot(middle), middle.z()}, 0.5 * out.norm(), isAbove ? 0 : across > 0.0 ? 1 : -1});
+  constexpr int kBlock = DepthGrid::kBlock;
+  constexpr int kFringe = 2;  // cells that normals leave out along edges
+  std::vector<std::uint32_t> cells = patch_.cells;
+  std::vector<char> isOfSide(static_cast<std::size_t>(grid_.width() * grid_.height()), 0);
+  for (const std::uint32_t cell : cells) isOfSide[cell] = 1;
+  std::size_t first = 0;
+  for (int ring = 0; ring < kFringe; ++ring) {
+    const std::size_t end = cells.size();
+    for (; first < end; ++first) {
+      eachNeighbour(grid_, cells[first], [&](std::size_t next, int x, int y, int dx, int dy) {
+        const DepthGrid::Cell& cell = grid_.at(x + dx, y + dy);
+        if (isOfSide[next] != 0 || isTurnedAway(cell)) return;
+        const int u = (x + dx) * kBlock + kBlock / 2;
+        const int v = (y + dy) * kBlock + kBlock / 2;
+        if (at(u, v, rayOf(cell)) != Shown::kSide) return;
+        isOfSide[next] = 1;
+        cells.push_back(static_cast<std::uint32_t>(next));
+      });
     }
   }
+  std::vector<EdgePoint> points;
+  for (const std::uint32_t cell : cells) {
+    eachNeighbour(grid_, cell, [&](std::size_t next, int x, int y, int dx, int dy) {
+      if (isOfSide[next] == 0) addEdge(x, y, dx, dy, points);
+    });
+  }
   return points;
+}
+
+/// From the cell's centre to its neighbour's, pixel by pixel.
+void Side::addEdge(int x, int y, int dx, int dy, std::vector<EdgePoint>& points) const {
+  constexpr int kBlock = DepthGrid::kBlock;
+  const Eigen::Vector3d here = rayOf(grid_.at(x, y));
+  const Eigen::Vector3d next = rayOf(grid_.at(x + dx, y + dy));
+  const auto shownAt = [&](int pixels) {
+    return at(x * kBlock + kBlock / 2 + pixels * dx, y * kBlock + kBlock / 2 + pixels * dy,
+              here + (next - here) * pixels / kBlock);
+  };
+  if (shownAt(kBlock) != Shown::kPast) return;
+  const Eigen::Vector2d out = placeOf(next) - placeOf(here);
+  const bool isAbove = std::abs(out.y()) > std::abs(out.x());
+  if (isAbove && out.y() < 0.0) return;
+  int pixels = 1;
+  while (shownAt(pixels) == Shown::kSide) ++pixels;
+  points.push_back({placeOf(here + (next - here) * (pixels - 0.5) / kBlock), 0.5 * out.norm() / kBlock,
+                    isAbove         ? 0
+                    : out.x() > 0.0 ? 1
+                                    : -1});
 }
 
 Side::Shown Side::at(const Eigen::Vector3d& spot) const {
   const Eigen::Vector3d spot_in_camera = T_camera_submap_ * spot;
   if (!(spot_in_camera.z() > 0.05)) return Shown::kNothing;
-  const Eigen::Vector2d pixel = grid_.camera().pixel(spot_in_camera.head<2>() / spot_in_camera.z());
-  const double x = (pixel.x() + 0.5) / DepthGrid::kBlock;
-  const double y = (pixel.y() + 0.5) / DepthGrid::kBlock;
-  if (!(x >= 0.0 && y >= 0.0 && x < grid_.width() && y < grid_.height())) return Shown::kNothing;
-  const DepthGrid::Cell& cell = grid_.at(static_cast<int>(x), static_cast<int>(y));
-  const double distance = before(cell);
-  if (distance > tolerance(cell)) return Shown::kNothing;
-  return distance < -tolerance(cell) ? Shown::kPast : Shown::kSide;
+  const Eigen::Vector3d ray = spot_in_camera / spot_in_camera.z();
+  const Eigen::Vector2d pixel = grid_.camera().pixel(ray.head<2>());
+  if (!(pixel.x() > -0.5 && pixel.y() > -0.5 && pixel.x() < depth_.width() - 0.5 &&
+        pixel.y() < depth_.height() - 0.5)) {
+    return Shown::kNothing;
+  }
+  return at(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())), ray);
 }
 
 /// Points of an edge along one slope. Places are turned so that x is uphill.
@@ -140,6 +193,11 @@ struct Outline {
 
   double along(const EdgePoint& p) const { return (p.place.x() + rise * p.place.y()) / std::hypot(1.0, rise); }
   double above(const EdgePoint& p) const { return (p.place.y() - rise * p.place.x()) / std::hypot(1.0, rise); }
+  Eigen::Vector2d middle() const {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (const EdgePoint& p : points) sum += p.place;
+    return sum / static_cast<double>(points.size());
+  }
 };
 
 /// The height above a slope in whose band most points lie, and how many.
@@ -175,14 +233,19 @@ void keepLongestPart(Outline& outline) {
   points = {best.begin(), best.end()};
 }
 
-/// The slope that most of an edge lies along, of what may be treads (one looks on above) and risers (one looks on
-/// downhill). `uphill`: 1 to the right, -1 to the left.
-std::optional<Outline> findOutline(const std::vector<EdgePoint>& edge, int uphill) {
-  Outline outline;
+/// Of upper edges and of those that one looks past downhill: what may be treads and risers. `uphill`: 1 to the right,
+/// -1 to the left.
+std::vector<EdgePoint> possibleSteps(const std::vector<EdgePoint>& edge, int uphill) {
+  std::vector<EdgePoint> points;
   for (const EdgePoint& p : edge) {
-    if (p.past != uphill) outline.points.push_back({{uphill * p.place.x(), p.place.y()}, p.sigma, p.past});
+    if (p.past != uphill) points.push_back({{uphill * p.place.x(), p.place.y()}, p.sigma, p.past});
   }
-  if (outline.points.size() < kLeastPoints) return std::nullopt;
+  return points;
+}
+
+/// Takes from the points those along the slope that most of them lie along.
+Outline takeOutline(std::vector<EdgePoint>& points) {
+  Outline outline{0.0, std::move(points)};
   std::pair<double, int> best;
   double bestRise = 0.0;
   for (const double rise : kSlopes) {
@@ -193,35 +256,29 @@ std::optional<Outline> findOutline(const std::vector<EdgePoint>& edge, int uphil
     bestRise = rise;
   }
   outline.rise = bestRise;
-  std::erase_if(outline.points,
-                [&](const EdgePoint& p) { return std::abs(outline.above(p) - best.first) > 0.5 * kBand; });
+  const auto others = std::ranges::partition(
+      outline.points, [&](const EdgePoint& p) { return std::abs(outline.above(p) - best.first) <= 0.5 * kBand; });
+  points.assign(others.begin(), others.end());
+  outline.points.erase(others.begin(), others.end());
   keepLongestPart(outline);
-  const auto& points = outline.points;
-  const auto treads = static_cast<double>(std::ranges::count(points, 0, &EdgePoint::past));
-  const auto count = static_cast<double>(points.size());
-  const bool isSawtooth =
-      points.size() >= kLeastPoints && treads > kLeastShare * count && treads < (1.0 - kLeastShare) * count;
-  if (!isSawtooth || outline.along(points.back()) - outline.along(points.front()) < kLeastLength) return std::nullopt;
   return outline;
 }
 
-/// At the middle of the outline, on the side's plane, x uphill.
-Pose3 flightFrame(const Side& side, const Outline& outline, int uphill) {
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const EdgePoint& p : outline.points) middle += p.place / static_cast<double>(outline.points.size());
-  const Eigen::Vector3d direction = uphill * side.right();
-  return geometry::fromYawPitchRoll(side.pointAt({uphill * middle.x(), middle.y()}),
-                                    std::atan2(direction.y(), direction.x()), 0.0, 0.0);
-}
-
-std::vector<FlightPoint> inFrame(const Outline& outline) {
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const EdgePoint& p : outline.points) middle += p.place / static_cast<double>(outline.points.size());
-  std::vector<FlightPoint> points;
-  for (const EdgePoint& p : outline.points) {
-    points.push_back({{p.place.x() - middle.x(), 0.0, p.place.y() - middle.y()}, p.sigma});
+/// Long enough, and neither straight as a rail nor without treads or risers.
+bool isSawtooth(const Outline& outline) {
+  const auto& points = outline.points;
+  if (points.size() < kLeastPoints) return false;
+  if (outline.along(points.back()) - outline.along(points.front()) < kLeastLength) return false;
+  const auto count = static_cast<double>(points.size());
+  const auto treads = static_cast<double>(std::ranges::count(points, 0, &EdgePoint::past));
+  if (std::min(treads, count - treads) < kLeastShare * count) return false;
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const EdgePoint& p : points) {
+    sum += outline.above(p);
+    squares += square(outline.above(p));
   }
-  return points;
+  return squares / count - square(sum / count) > square(kStraight);
 }
 
 /// The steps of a lattice along a side.
@@ -244,7 +301,7 @@ class FlightBeside {
     int filled = 0;
 
     bool isAsked() const { return solid + missing + open + filled > 0; }
-    bool isThere() const { return solid >= 2 && open >= 2 && missing + filled <= 1; }
+    bool isThere() const { return solid >= 2 && open >= 2; }
   };
   struct Run {
     int lowest = 0;
@@ -254,7 +311,8 @@ class FlightBeside {
 
   Tooth tooth(int step) const;
   Run longestRun() const;
-  double width(const Run& run, const Pose3& T_submap_camera) const;
+  double width(const Run& run, const Pose3& T_flight_camera) const;
+  int mostBelow(int step, const Eigen::Vector3d& eye) const;
 
   const Side& side_;
   const Surfaces& surfaces_;
@@ -301,59 +359,76 @@ FlightBeside::Run FlightBeside::longestRun() const {
   return best;
 }
 
-/// How far the flight reaches behind its side: as far as the view shows without a gap anything below its treads, be it
-/// lower treads, the underside or the wall at its far end.
-double FlightBeside::width(const Run& run, const Pose3& T_submap_camera) const {
-  constexpr double kColumn = 0.1;
-  std::array<int, static_cast<std::size_t>(kMostWidth / kColumn)> columns{};
-  const Pose3 T_flight_camera = T_submap_flight_.inverse() * T_submap_camera;
+/// How far the flight reaches behind its side: as far as one sees treads or the underside without a gap; else as usual,
+/// but no farther than the wall behind it.
+double FlightBeside::width(const Run& run, const Pose3& T_flight_camera) const {
+  constexpr double kFacing = 0.7;
+  constexpr double kEnd = 0.02;  // of the points, that may lie beyond
+  std::vector<double> steps;
+  std::vector<double> walls;
   for (int v = 0; v < surfaces_.depth.height(); ++v) {
     for (int u = 0; u < surfaces_.depth.width(); ++u) {
       const DepthGrid::Cell& cell = surfaces_.depth.at(u, v);
       if (!(cell.depth > 0.0F)) continue;
       const Eigen::Vector3d p = T_flight_camera * pointOf(cell);
-      const double steps = (p.x() - lattice_.riserAt(run.lowest)) / lattice_.depth;
-      const double below = lattice_.treadAt(run.lowest) + steps * lattice_.rise - p.z();
+      const double step = (p.x() - lattice_.riserAt(run.lowest)) / lattice_.depth;
+      const double below = lattice_.treadAt(run.lowest) + step * lattice_.rise - p.z();
       const double behind = uphill_ * p.y();
-      if (steps < 0.0 || steps > run.count || below < -kOnPlane || below > lattice_.rise + kThickness) continue;
-      if (behind > 0.0 && behind < kMostWidth) ++columns[static_cast<std::size_t>(behind / kColumn)];
+      if (step < 0.0 || step > run.count || below < -kOnPlane || below > lattice_.rise + kThickness) continue;
+      if (behind < 0.0 || behind > kMostWidth) continue;
+      const bool isWall = std::abs(T_flight_camera.linear().row(1).dot(normalOf(cell))) > kFacing;
+      (isWall ? walls : steps).push_back(behind);
     }
   }
-  constexpr int kLeastCells = 3;
-  const auto end = std::ranges::find_if(columns, [](int count) { return count < kLeastCells; });
-  const double width = kColumn * static_cast<double>(end - columns.begin());
-  return width < kLeastWidth || end == columns.end() ? kUsualWidth : width;
+  std::ranges::sort(steps);
+  const auto gap = std::ranges::adjacent_find(steps, [](double a, double b) { return b - a > kGap; });
+  const auto count = static_cast<double>(std::distance(steps.begin(), gap == steps.end() ? gap : gap + 1));
+  const double seen = count > 0.0 ? steps[static_cast<std::size_t>((1.0 - kEnd) * count)] : 0.0;
+  if (seen > kLeastWidth) return seen;
+  std::erase_if(walls, [](double behind) { return behind < kLeastWidth; });
+  return walls.empty() ? kUsualWidth : std::min(kUsualWidth, median(std::move(walls)));
+}
+
+/// How many steps there may be below that one: none where one sees nothing there, or a landing or wall.
+int FlightBeside::mostBelow(int step, const Eigen::Vector3d& eye) const {
+  constexpr int kUnseen = 2;
+  const Tooth below = tooth(step - 1);
+  // Where treads are seen from above, spots before a riser may show the tread.
+  const bool isFromBelow = eye.z() < lattice_.treadAt(step - 1);
+  return below.missing >= 2 || (isFromBelow && below.filled >= 2) ? 0 : kUnseen;
 }
 
 std::optional<FlightSteps> FlightBeside::steps(const Pose3& T_submap_camera) const {
   const Run run = longestRun();
-  if (run.count < static_cast<int>(kLeastSteps)) return std::nullopt;
-  const double across = uphill_ * width(run, T_submap_camera);
+  if (run.count < kLeastSteps) return std::nullopt;
+  const Pose3 T_flight_camera = T_submap_flight_.inverse() * T_submap_camera;
+  const double across = uphill_ * width(run, T_flight_camera);
   FlightSteps found;
   for (int step = run.lowest; step < run.lowest + run.count; ++step) {
-    const Eigen::Vector3d edge =
-        T_submap_flight_ * Eigen::Vector3d(lattice_.riserAt(step), 0.0, lattice_.treadAt(step));
+    const Eigen::Vector3d edge(lattice_.riserAt(step), 0.0, lattice_.treadAt(step));
     found.steps.push_back({.index = step,
                            .riserCells = 1,
                            .least = std::min(0.0, across),
                            .most = std::max(0.0, across),
-                           .sigma = sensors::depthSigma((edge - T_submap_camera.translation()).norm())});
+                           .sigma = sensors::depthSigma((edge - T_flight_camera.translation()).norm())});
   }
   found.count = run.spots;
-  found.beginsThere = tooth(run.lowest - 1).missing >= 2;
+  found.mostBelow = mostBelow(run.lowest, T_flight_camera.translation());
   return found;
 }
 
 std::optional<StaircaseSighting> flightBeside(const RgbdView& view, const Surfaces& surfaces, const Side& side,
                                               const Outline& outline, int uphill) {
-  const Pose3 T_submap_flight = flightFrame(side, outline, uphill);
-  const auto found = findLattice(inFrame(outline), outline.rise, false);
-  if (getenv("Q"))
-    fprintf(stderr, "   outline %zu rise %.2f up %d at %.2f %.2f %.2f: lattice %d rough %.2f d %.3f h %.3f\n",
-            outline.points.size(), outline.rise, uphill, T_submap_flight.translation().x(),
-            T_submap_flight.translation().y(), T_submap_flight.translation().z(), found.has_value(),
-            found ? found->roughness : 0, found ? found->lattice.depth : 0, found ? found->lattice.rise : 0);
+  const Eigen::Vector2d middle = outline.middle();
+  std::vector<FlightPoint> points;
+  for (const EdgePoint& p : outline.points) {
+    points.push_back({{p.place.x() - middle.x(), 0.0, p.place.y() - middle.y()}, p.sigma});
+  }
+  const auto found = findLattice(points, outline.rise, false);
   if (!found || found->roughness > kMostRoughness) return std::nullopt;
+  const Eigen::Vector3d direction = uphill * side.right();
+  const Pose3 T_submap_flight = geometry::fromYawPitchRoll(side.pointAt({uphill * middle.x(), middle.y()}),
+                                                           std::atan2(direction.y(), direction.x()), 0.0, 0.0);
   const FlightBeside flight(side, surfaces, found->lattice, T_submap_flight, uphill);
   const auto steps = flight.steps(view.T_submap_camera);
   if (!steps) return std::nullopt;
@@ -372,9 +447,12 @@ std::vector<StaircaseSighting> findFlightsBeside(const RgbdView& view, const Sur
     const Side side(view, surfaces, patch);
     const auto edge = side.edge();
     for (const int uphill : {1, -1}) {
-      const auto outline = findOutline(edge, uphill);
-      auto sighting = outline ? flightBeside(view, surfaces, side, *outline, uphill) : std::nullopt;
-      if (sighting) sightings.push_back(std::move(*sighting));
+      auto points = possibleSteps(edge, uphill);
+      for (int i = 0; i < kMostOutlines && points.size() >= kLeastPoints; ++i) {
+        const Outline outline = takeOutline(points);
+        auto sighting = isSawtooth(outline) ? flightBeside(view, surfaces, side, outline, uphill) : std::nullopt;
+        if (sighting) sightings.push_back(std::move(*sighting));
+      }
     }
   }
   return sightings;

@@ -30,7 +30,7 @@ class Flight {
         lattice_(lattice),
         T_submap_flight_(T_submap_flight),
         steps_(flight.steps),
-        beginsThere_(flight.beginsThere),
+        mostBelow_(flight.mostBelow),
         check_(check) {}
 
   void tellFoot(StaircaseSighting& sighting) const;
@@ -61,7 +61,7 @@ class Flight {
   const StepLattice& lattice_;
   const Pose3& T_submap_flight_;
   const std::vector<SeenStep>& steps_;
-  bool beginsThere_;
+  int mostBelow_;
   const ProfileCheck& check_;
 };
 
@@ -140,7 +140,7 @@ void Flight::tellFoot(StaircaseSighting& sighting) const {
   const int lowest = steps_.front().index;
   const int highest = steps_.back().index;
   const int floor = floorStep();
-  const bool stands = meetsFloor() && (beginsThere_ ? floor + 1 == lowest : floor < lowest);
+  const bool stands = meetsFloor() && floor < lowest && lowest - floor - 1 <= mostBelow_;
   const int first = stands ? floor + 1 : lowest;
   sighting.footIsSeen = stands && first == lowest;
   sighting.descends = highest <= floor;
@@ -156,7 +156,7 @@ void Flight::tellFoot(StaircaseSighting& sighting) const {
 
   double sigma = 0.0;
   for (const SeenStep& step : steps_) sigma += step.sigma / static_cast<double>(steps_.size());
-  const double along = stands || beginsThere_ ? 0.02 + 0.5 * sigma + 0.015 * (lowest - first) : 0.5;
+  const double along = stands || mostBelow_ == 0 ? 0.02 + 0.5 * sigma + 0.015 * (lowest - first) : 0.5;
   const double across = sighting.widthIsWhole ? 0.03 : left.seen || right.seen ? 0.3 : 0.5;
   const double turn =
       0.01 + (0.01 + sigma) / std::max(sighting.width, kLeastWidth) / std::sqrt(static_cast<double>(steps_.size()));

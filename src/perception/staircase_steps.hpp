@@ -7,6 +7,7 @@
 #include "perception/staircase_lattice.hpp"
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -67,7 +68,8 @@ struct FlightSteps {
   std::vector<SeenStep> steps;
   std::vector<Eigen::Vector3d> points_in_flight;
   ProfileCheck::Count count;
-  bool beginsThere = false;  ///< one sees that there is no step below the lowest
+  /// Steps below the lowest that may be there unseen; 0: one sees that there is none.
+  int mostBelow = std::numeric_limits<int>::max();
 };
 
 /// The steps of a lattice one by one: enough of them in a row, each at its place and as wide as a step, with nothing
