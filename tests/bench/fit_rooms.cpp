@@ -217,6 +217,7 @@ void fit(const std::filesystem::path& folder, const YAML::Node& split) {
   leftOut.print("training, left out (uncorrected)");
   scores.print("validation");
   scores.whole.printQuarters(stderr);
+  scores.whole.printPrecisions(stderr);
   printOtherKind(training, validation);
 }
 

@@ -116,6 +116,22 @@ class RoomScores {
     }
   }
 
+  /// Of cells by their least probability: the share that is the room's floor, and m² a door.
+  void printPrecisions(std::FILE* out) const {
+    constexpr double kAreaOfBet = kEveryCell * prediction::Surroundings::kCell * prediction::Surroundings::kCell;
+    for (const double least : {0.5, 0.6, 0.7, 0.8, 0.9, 0.95}) {
+      double right = 0.0;
+      double all = 0.0;
+      for (const auto& bet : cells_) {
+        if (bet.probability < least) continue;
+        all += 1.0;
+        if (bet.cameTrue) right += 1.0;
+      }
+      std::fprintf(out, "  P >= %.2f: precision %.3f, %.1f m2 a door\n", least, right / all,
+                   kAreaOfBet * all / static_cast<double>(rooms()));
+    }
+  }
+
   std::size_t rooms() const { return expected_.size(); }
   double clippedBox() const { return sums_[2] / static_cast<double>(rooms()); }  ///< mean IoU
   double outline() const { return sums_[5] / static_cast<double>(rooms()); }
@@ -141,6 +157,7 @@ class RoomScores {
 
  private:
   static constexpr std::size_t kPredictors = 7;
+  static constexpr int kEveryCell = 5;  // that bets are counted of
 
   struct Expected {
     double expected = 0.0;
@@ -164,7 +181,7 @@ class RoomScores {
       for (int x = box.first.x; x <= box.last.x; ++x) {
         const float probability = guess.probability.at({x, y});
         const bool isRoom = inRoom.at({x, y}) != 0;
-        if (probability >= 0.1F && (x + 2 * y) % 5 == 0) cells_.push_back({probability, isRoom});
+        if (probability >= 0.1F && (x + 2 * y) % kEveryCell == 0) cells_.push_back({probability, isRoom});
         if (probability < 0.5F) continue;
         guessed += 1.0;
         if (isRoom) both += 1.0;
