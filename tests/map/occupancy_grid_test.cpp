@@ -367,6 +367,18 @@ TEST(OccupancyGrid, MergedInPlaceIsTheSame) {
   }
 }
 
+TEST(OccupancyGrid, MergedWithinLimitsLeavesTheRestUnknown) {
+  OccupancyGrid source;
+  const std::vector<OccupancyGrid::Beam> beams{{{2.0, 0.0}, true}};
+  source.insert({0.0, 0.0}, beams);
+  OccupancyGrid target;
+  target.mergeWithin({{0, -5}, {19, 5}}, source, geometry::Pose3::Identity());
+  EXPECT_EQ(target.knownBox(), (geometry::CellBox{{0, 0}, {19, 0}}));
+  EXPECT_EQ(target.state({10, 0}), CellState::kFree);
+  target.mergeWithin({{100, 100}, {120, 120}}, source, geometry::Pose3::Identity());
+  EXPECT_EQ(target.knownBox(), (geometry::CellBox{{0, 0}, {19, 0}}));
+}
+
 TEST(OccupancyGrid, MergedUnderAQuarterTurnIsTurned) {
   const auto grid = gridFromText({"##..",  //
                                   "#   "},

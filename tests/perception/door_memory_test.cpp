@@ -310,6 +310,38 @@ TEST(DoorMemory, GridsTellOfDoorwaysAndTakeThemBack) {
   EXPECT_THAT(bench.change().removedEntities, SizeIs(1));
 }
 
+TEST(DoorMemory, OpeningsMayBeWiderThanLeaves) {
+  SightingMaker maker(16);
+  const auto entitiesOf = [&maker](double width, bool hasLeaf) {
+    MemoryBench bench;
+    auto sighting = maker.see({.pose = {0.0, 0.0, 0.0}, .width = width, .hasLeaf = hasLeaf}, before(0.0), 1.0);
+    sighting.evidence = 4.0;
+    bench.memory.addFromGrid({0}, std::vector{sighting}, bench.poses());
+    return bench.entities();
+  };
+  EXPECT_THAT(entitiesOf(3.8, false), SizeIs(1));
+  EXPECT_THAT(entitiesOf(5.0, false), IsEmpty());
+  EXPECT_THAT(entitiesOf(3.8, true), IsEmpty());
+}
+
+TEST(DoorMemory, WhatOneGridShowsVaguelyAnotherMayConfirmMuchLater) {
+  MemoryBench bench;
+  bench.submaps[1] = geometry::Pose3::Identity();
+  SightingMaker maker(17);
+  const WorldDoor doorway{.pose = {0.0, 0.0, 0.0}, .hasLeaf = false};
+  const auto seen = [&](double time) {
+    auto sighting = maker.see(doorway, before(0.0), time);
+    sighting.since = test::at(time - 10.0);
+    sighting.evidence = 2.0;
+    return std::vector{sighting};
+  };
+  bench.memory.addFromGrid({0}, seen(20.0), bench.poses());
+  EXPECT_THAT(bench.entities(), IsEmpty());
+  bench.memory.addFromGrid({1}, seen(1000.0), bench.poses());
+  ASSERT_THAT(bench.entities(), SizeIs(1));
+  EXPECT_EQ(bench.entities()[0].firstSeen, test::at(10.0)) << "when the grid was begun";
+}
+
 TEST(DoorMemory, WhatCannotBeADoorIsPassedOver) {
   MemoryBench bench;
   SightingMaker maker(15);
