@@ -7,6 +7,7 @@
 #include "prodomos/map/prediction.hpp"
 #include "prodomos/prediction/surroundings.hpp"
 
+#include <array>
 #include <vector>
 
 /// Floor that nobody has seen: where a density says that it is free, cut by what is known.
