@@ -78,6 +78,16 @@ void printCounts(const char* title, const std::map<std::string, int>& counts) {
   std::cout << '\n';
 }
 
+void printEntities(const std::map<std::string, int>& counts) {
+  std::cout << "  entities     " << (counts.empty() ? "none" : "");
+  const char* comma = "";
+  for (const auto& [name, count] : counts) {
+    std::cout << comma << counted(static_cast<std::size_t>(count), name);
+    comma = ", ";
+  }
+  std::cout << '\n';
+}
+
 void print(const map::MapView& view, const std::string& path) {
   const auto counts = countsOf(view);
   std::cout << path << ", " << fileSize(std::filesystem::file_size(path)) << ", revision " << view.revision() << '\n';
@@ -99,7 +109,7 @@ void print(const map::MapView& view, const std::string& path) {
   }
   std::cout << '\n';
   printCounts("edges        ", counts.edges);
-  printCounts("entities     ", counts.entities);
+  printEntities(counts.entities);
   printCounts("predictions  ", counts.predictions);
 }
 

@@ -144,10 +144,10 @@ mapper::MapperConfig configToResume(const ReplayOptions& options, const map::Ses
   return stored;
 }
 
-std::string pluralOf(const map::EntityAttributes& attributes) {
-  if (const auto* door = std::get_if<map::Door>(&attributes)) return door->hasLeaf ? "doors" : "doorways";
-  if (std::holds_alternative<map::Human>(attributes)) return "people";
-  return std::string(className(attributes)) + "s";
+std::string nounOf(const map::EntityAttributes& attributes) {
+  if (const auto* door = std::get_if<map::Door>(&attributes)) return door->hasLeaf ? "door" : "doorway";
+  if (std::holds_alternative<map::Human>(attributes)) return "person";
+  return std::string(className(attributes));
 }
 
 ReplayResult resultOf(mapper::Mapper& mapper, const map::MapView& view) {
@@ -162,7 +162,7 @@ ReplayResult resultOf(mapper::Mapper& mapper, const map::MapView& view) {
     const auto kind = graph.getEdge(id).kind;
     return kind == map::EdgeKind::kLoop || kind == map::EdgeKind::kOverlap;
   }));
-  for (const auto& entity : view.entities()) ++result.entities[pluralOf(entity.attributes)];
+  for (const auto& entity : view.entities()) ++result.entities[nounOf(entity.attributes)];
   if (view.sessions().size() > 1) result.meetsEarlier = mapper.meetsEarlierSessions();
   return result;
 }

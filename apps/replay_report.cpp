@@ -28,6 +28,8 @@ double peakMemoryMb() {
 
 void writeReport(const ReplayResult& result, const std::string& path) {
   const auto& report = result.report;
+  std::map<std::string, std::size_t> entities;
+  for (const auto& [noun, count] : result.entities) entities[pluralOf(noun)] = count;
   const nlohmann::json out = {
       {"readings",
        {{"read", report.read},
@@ -37,7 +39,7 @@ void writeReport(const ReplayResult& result, const std::string& path) {
       {"faults", {{"count", report.faultCount}, {"first", report.faults}}},
       {"poses", {{"origin", result.poses}, {"lost", report.lost}}},
       {"not_looked_at", report.notLookedAt},
-      {"entities", result.entities},
+      {"entities", entities},
       {"submaps", report.submaps},
       {"loops", result.loops},
       {"meets_earlier_sessions", result.meetsEarlier ? nlohmann::json(*result.meetsEarlier) : nlohmann::json()},
@@ -62,15 +64,14 @@ void printReport(const ReplayResult& result, const sensors::SourceInfo& log, con
   std::cout << "  poses     " << result.poses;
   if (report.lost > 0) std::cout << ", " << grouped(report.lost) << " readings not recognised";
   std::cout << '\n';
-  std::cout << "  map       " << report.submaps << (report.submaps == 1 ? " sub-map" : " sub-maps") << ", "
-            << result.places << (result.places == 1 ? " place" : " places") << ", " << result.floors
-            << (result.floors == 1 ? " floor" : " floors") << ", " << fixed(report.distance, 1) << " m travelled, "
-            << result.loops << (result.loops == 1 ? " loop" : " loops") << '\n';
+  std::cout << "  map       " << counted(static_cast<std::size_t>(report.submaps), "sub-map") << ", "
+            << counted(result.places, "place") << ", " << counted(result.floors, "floor") << ", "
+            << fixed(report.distance, 1) << " m travelled, " << counted(result.loops, "loop") << '\n';
   if (!result.entities.empty()) {
     std::cout << "  found     ";
     const char* comma = "";
     for (const auto& [name, count] : result.entities) {
-      std::cout << comma << grouped(static_cast<std::int64_t>(count)) << ' ' << name;
+      std::cout << comma << counted(count, name);
       comma = ", ";
     }
     std::cout << '\n';

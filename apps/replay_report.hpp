@@ -20,7 +20,7 @@ struct ReplayResult {
   std::size_t places = 0;
   std::size_t floors = 0;
   std::size_t loops = 0;                        ///< of the whole map
-  std::map<std::string, std::size_t> entities;  ///< of the whole map: "doors", "doorways", "staircases", "people"
+  std::map<std::string, std::size_t> entities;  ///< of the whole map: "door", "doorway", "staircase", "person"
   std::optional<bool> meetsEarlier;  ///< was the log found in what the map held before? None where that was nothing
 };
 

@@ -36,4 +36,14 @@ std::string clockTime(double seconds) {
   return std::to_string(minutes / 60) + ":" + twoDigits(minutes % 60) + ":" + twoDigits(total % 60);
 }
 
+std::string pluralOf(const std::string& noun) {
+  if (noun == "person") return "people";
+  const bool hisses = noun.ends_with("x") || noun.ends_with("s") || noun.ends_with("ch");
+  return noun + (hisses ? "es" : "s");
+}
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return grouped(static_cast<std::int64_t>(count)) + ' ' + (count == 1 ? noun : pluralOf(noun));
+}
+
 }  // namespace prodomos::apps

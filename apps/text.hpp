@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -15,5 +16,9 @@ std::string fixed(double number, int decimals);
 std::string fileSize(std::uintmax_t bytes);
 /// "1:05:09", "4:31"
 std::string clockTime(double seconds);
+/// "staircases", "boxes", "people"
+std::string pluralOf(const std::string& noun);
+/// "1 staircase", "13,631 doors"
+std::string counted(std::size_t count, const std::string& noun);
 
 }  // namespace prodomos::apps
