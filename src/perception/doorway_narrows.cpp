@@ -321,7 +321,7 @@ std::optional<Opening> NarrowSearch::judge(const Narrow& narrow) const {
   opening.width = width * raster_.step();
   opening.sigma = 0.5 * raster_.step();
   // A wide one beside a longer wall may be the mouth of a corridor that crosses.
-  const double shape = isPlain ? 1.1 : std::clamp(2.1 - 2.0 * (opening.width - 1.0), -0.9, 2.1);
+  const double shape = isPlain ? 0.5 : std::clamp(2.1 - 2.0 * (opening.width - 1.0), -0.9, 2.1);
   opening.evidence = shape + 2.0 * (jambs.count(Beside::kOpen) - 3) + 3.0 * (seen - kLeastSeen);
   return opening;
 }
