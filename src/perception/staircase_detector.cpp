@@ -4,9 +4,9 @@
 
 #include "prodomos/base/random.hpp"
 
+#include "perception/staircase_beside.hpp"
 #include "perception/staircase_drawing.hpp"
 #include "perception/staircase_lattice.hpp"
-#include "perception/staircase_outline.hpp"
 #include "perception/staircase_sighting.hpp"
 #include "perception/staircase_steps.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 the prodomos authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "perception/staircase_outline.hpp"
+#include "perception/staircase_beside.hpp"
 
 #include "prodomos/perception/staircase_detector.hpp"
 
