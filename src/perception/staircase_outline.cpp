@@ -38,7 +38,8 @@ void eachNeighbour(const DepthGrid& grid, std::uint32_t cell, const Use& use) {
   const int y = static_cast<int>(cell) / grid.width();
   for (const auto& [dx, dy] : {std::pair(-1, 0), std::pair(1, 0), std::pair(0, -1), std::pair(0, 1)}) {
     if (x + dx < 0 || y + dy < 0 || x + dx >= grid.width() || y + dy >= grid.height()) continue;
-    use(static_cast<std::size_t>((y + dy) * grid.width() + x + dx), x, y, dx, dy);
+    const int next = (y + dy) * grid.width() + x + dx;
+    use(static_cast<std::size_t>(next), x, y, dx, dy);
   }
 }
 
@@ -66,13 +67,16 @@ std::pair<double, int> fullestBand(const Outline& outline) {
 void keepLongestPart(Outline& outline) {
   auto& points = outline.points;
   std::ranges::sort(points, {}, [&](const EdgePoint& p) { return outline.along(p); });
-  auto best = std::ranges::subrange(points.begin(), points.begin());
+  auto bestBegin = points.begin();
+  auto bestEnd = points.begin();
   auto first = points.begin();
   for (auto next = points.begin(); next != points.end(); ++next) {
     if (next != first && outline.along(*next) - outline.along(*std::prev(next)) > kGap) first = next;
-    if (next + 1 - first > best.end() - best.begin()) best = {first, next + 1};
+    if (next + 1 - first <= bestEnd - bestBegin) continue;
+    bestBegin = first;
+    bestEnd = next + 1;
   }
-  points = {best.begin(), best.end()};
+  points = {bestBegin, bestEnd};
 }
 
 /// What may be treads and risers, places turned so that x is uphill.
@@ -97,10 +101,11 @@ Outline takeOutline(std::vector<EdgePoint>& points) {
     bestRise = rise;
   }
   outline.rise = bestRise;
-  const auto others = std::ranges::partition(
-      outline.points, [&](const EdgePoint& p) { return std::abs(outline.above(p) - best.first) <= 0.5 * kBand; });
-  points.assign(others.begin(), others.end());
-  outline.points.erase(others.begin(), others.end());
+  const auto others = std::partition(outline.points.begin(), outline.points.end(), [&](const EdgePoint& p) {
+    return std::abs(outline.above(p) - best.first) <= 0.5 * kBand;
+  });
+  points.assign(others, outline.points.end());
+  outline.points.erase(others, outline.points.end());
   keepLongestPart(outline);
   return outline;
 }
@@ -146,7 +151,7 @@ std::vector<EdgePoint> Side::edge() const {
   constexpr int kBlock = DepthGrid::kBlock;
   constexpr int kFringe = 2;  // cells that normals leave out along edges
   std::vector<std::uint32_t> cells = patch_.cells;
-  std::vector<char> isOfSide(static_cast<std::size_t>(grid_.width() * grid_.height()), 0);
+  std::vector<char> isOfSide(static_cast<std::size_t>(grid_.width()) * static_cast<std::size_t>(grid_.height()), 0);
   for (const std::uint32_t cell : cells) isOfSide[cell] = 1;
   std::size_t first = 0;
   for (int ring = 0; ring < kFringe; ++ring) {
