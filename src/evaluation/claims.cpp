@@ -11,6 +11,7 @@ namespace prodomos::evaluation {
 
 namespace {
 
+using geometry::transformed;
 using Frames = std::map<base::SubMapId, geometry::Pose3>;
 
 constexpr double kSameStorey = 1.0;  // metres between its floor and what lies on it
@@ -18,6 +19,11 @@ constexpr double kSameStorey = 1.0;  // metres between its floor and what lies o
 const map::Entity* findEntity(const map::MapView& view, base::EntityId id) {
   const auto found = std::ranges::find(view.entities(), id, &map::Entity::id);
   return found == view.entities().end() ? nullptr : &*found;
+}
+
+/// Believed no more; it stays in the map for the sake of a bet.
+bool isGivenUp(const map::Entity& entity) {
+  return entity.confidence <= 0.0;
 }
 
 /// Metres that the flight covers on the ground; none where neither steps nor points tell.
@@ -59,7 +65,7 @@ std::optional<int> modelledStorey(const Truth& truth, double z) {
   return storey;
 }
 
-ClaimedSpace claimedSpace(const map::MapView& view, const map::Prediction& prediction, const Frames& T_world_node,
+ClaimedSpace claimedSpace(const map::MapView& view, const map::Prediction& prediction, const Frames& T_world_submap,
                           const Truth& truth) {
   ClaimedSpace claim{.id = prediction.id,
                      .node = prediction.node,
@@ -69,52 +75,28 @@ ClaimedSpace claimedSpace(const map::MapView& view, const map::Prediction& predi
                      .made = prediction.made,
                      .settled = prediction.settled,
                      .state = prediction.state,
-                     .areas_in_world = {}};
+                     .areas_in_world = {},
+                     .room_in_world = {}};
   if (const auto* cause = findEntity(view, prediction.cause)) claim.mobility = map::mobility(cause->attributes);
-  const auto frame = T_world_node.find(prediction.node);
-  if (frame == T_world_node.end()) return claim;
-  claim.storey = modelledStorey(truth, frame->second.translation().z());
+  const auto seenFrom = T_world_submap.find(prediction.submap);
+  if (seenFrom == T_world_submap.end()) return claim;
+  const geometry::Pose3 T_world_node = seenFrom->second * prediction.T_submap_node;
+  claim.storey = modelledStorey(truth, T_world_node.translation().z());
   for (const auto& area : prediction.areas) {
-    claim.areas_in_world[area.threshold] = transformed(frame->second, area.outline_in_submap);
+    claim.areas_in_world[area.threshold] = transformed(T_world_node, area.outline_in_node);
   }
+  claim.room_in_world = transformed(T_world_node, prediction.room_in_node);
   return claim;
-}
-
-/// The observed sub-map that a predicted one hangs on: where its cause was seen from, else its neighbour.
-std::optional<base::SubMapId> anchorOf(const map::MapView& view, base::SubMapId predicted, const Frames& observed) {
-  for (const auto& prediction : view.predictions()) {
-    if (prediction.node != predicted) continue;
-    const auto* cause = findEntity(view, prediction.cause);
-    if (cause != nullptr && observed.contains(cause->submap)) return cause->submap;
-  }
-  for (const auto neighbour : view.graph().neighbours(predicted)) {
-    if (observed.contains(neighbour)) return neighbour;
-  }
-  return std::nullopt;
 }
 
 }  // namespace
 
-Frames truthFromNodes(const map::MapView& view, const Truth& truth) {
-  const auto observed = truthFromSubMaps(view, truth);
-  auto frames = observed;
-  const auto& graph = view.graph();
-  for (const auto id : graph.nodes()) {
-    if (observed.contains(id)) continue;
-    const auto anchor = anchorOf(view, id, observed);
-    const auto T_world_map = anchor ? observed.at(*anchor) * graph.getNode(*anchor).T_map_submap.inverse()
-                                    : truthFromMap(bodyPoses(view.trajectory(), Poses::kRefined), truth);
-    frames[id] = T_world_map * graph.getNode(id).T_map_submap;
-  }
-  return frames;
-}
-
 Claims claimsOf(const map::MapView& view, const Truth& truth) {
-  const auto T_world_node = truthFromNodes(view, truth);
+  const auto T_world_submap = truthFromSubMaps(view, truth);
   Claims claims;
   for (const auto& entity : view.entities()) {
-    const auto frame = T_world_node.find(entity.submap);
-    if (frame == T_world_node.end()) continue;
+    const auto frame = T_world_submap.find(entity.submap);
+    if (frame == T_world_submap.end() || isGivenUp(entity)) continue;
     const int storey = storeyAt(truth, frame->second.translation().z());
     if (const auto* door = std::get_if<map::Door>(&entity.attributes)) {
       claims.doors.push_back({entity.id, storey, geometry::toPose2(frame->second * entity.T_submap_entity), *door,
@@ -124,7 +106,7 @@ Claims claimsOf(const map::MapView& view, const Truth& truth) {
     }
   }
   for (const auto& prediction : view.predictions()) {
-    claims.spaces.push_back(claimedSpace(view, prediction, T_world_node, truth));
+    claims.spaces.push_back(claimedSpace(view, prediction, T_world_submap, truth));
   }
   claims.images = detectionsOf(view);
   return claims;

@@ -38,6 +38,12 @@ bool isBehindClosedDoor(const Scene& scene, std::size_t index) {
   return door.leaves > 0 && stateAt(door, scene.claims.spaces[index].made) == map::DoorState::kClosed;
 }
 
+/// The likely room; of maps that tell none, the floor at the least threshold.
+Polygon shapeOf(const ClaimedSpace& space) {
+  if (!space.room_in_world.empty() || space.areas_in_world.empty()) return space.room_in_world;
+  return space.areas_in_world.begin()->second;
+}
+
 RoomShape judgeShape(const Scene& scene, std::size_t index, const ClaimedDoor& door, const Baselines& baselines) {
   const auto& space = scene.claims.spaces[index];
   const auto& room = scene.truth.rooms[*scene.behind[index].room];
@@ -45,11 +51,9 @@ RoomShape judgeShape(const Scene& scene, std::size_t index, const ClaimedDoor& d
     return scene.known.isKnown(room.storey, geometry::cellAt(point.x(), point.y(), kCell), space.made);
   });
   RoomShape shape{.isOrdinary = room.use == "room" && view.roomArea() <= kLargestRoom};
-  if (!space.areas_in_world.empty()) {
-    const auto& outline = space.areas_in_world.begin()->second;
-    shape.predictedArea = static_cast<double>(cellsIn(outline).size()) * kCell * kCell;
-    shape.iou = view.iou(outline);
-  }
+  const Polygon outline = shapeOf(space);
+  shape.predictedArea = static_cast<double>(cellsIn(outline).size()) * kCell * kCell;
+  shape.iou = view.iou(outline);
   shape.fixedBox = view.iou(baselines.fixedBox);
   shape.clippedBox = view.iouClipped(baselines.clippedBox);
   shape.oracleBox = view.iou(view.bestBox());

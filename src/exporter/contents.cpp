@@ -43,6 +43,11 @@ const map::Prediction* predictionOf(const map::MapView& view, base::SubMapId nod
   return found == view.predictions().end() ? nullptr : &*found;
 }
 
+std::optional<int> floorOf(const map::MapView& view, const map::Prediction& prediction) {
+  const auto* const node = view.graph().findNode(prediction.node);
+  return node == nullptr ? view.graph().getNode(prediction.submap).floor : node->floor;
+}
+
 std::vector<map::Node> observedNodes(const map::MapView& view) {
   std::vector<map::Node> nodes;
   for (const auto id : view.graph().nodes()) {

@@ -36,6 +36,9 @@ std::vector<Trail> trailsOf(const map::MapView& view);
 /// The bet that a predicted node stands for; null where there is none.
 const map::Prediction* predictionOf(const map::MapView& view, base::SubMapId node);
 
+/// Of its node; of a settled one, of the sub-map that its cause lies in.
+std::optional<int> floorOf(const map::MapView& view, const map::Prediction& prediction);
+
 /// The graph's observed nodes, and the edges between them, ascending.
 std::vector<map::Node> observedNodes(const map::MapView& view);
 std::vector<map::Edge> observedEdges(const map::MapView& view);

@@ -57,10 +57,10 @@ Json entityFeature(const map::MapView& view, const map::Entity& entity) {
 }
 
 Json areaFeature(const map::MapView& view, const map::Prediction& prediction, const map::PredictedArea& area) {
-  const auto& node = view.graph().getNode(prediction.node);
+  const geometry::Pose3 T_map_node = view.T_map_node(prediction);
   Json ring = Json::array();
-  for (const auto& corner : area.outline_in_submap) {
-    ring.push_back(coordinates(node.T_map_submap * Eigen::Vector3d(corner.x(), corner.y(), 0.0)));
+  for (const auto& corner : area.outline_in_node) {
+    ring.push_back(coordinates(T_map_node * Eigen::Vector3d(corner.x(), corner.y(), 0.0)));
   }
   if (!ring.empty()) ring.push_back(Json(ring.front()));
   const std::string id = toString(prediction.id) + '@' + brief(area.threshold);
@@ -71,7 +71,7 @@ Json areaFeature(const map::MapView& view, const map::Prediction& prediction, co
                   {"probability", number(prediction.probability)},
                   {"threshold", number(area.threshold)},
                   {"node", toString(prediction.node)},
-                  {"floor", optionalJson(node.floor)}});
+                  {"floor", optionalJson(floorOf(view, prediction))}});
 }
 
 /// A line a session.
@@ -106,7 +106,7 @@ void writeGeojson(const map::MapView& view, const Path& path) {
   for (const auto& trail : trailsOf(view)) features.push_back(trailFeature(trail));
   for (const auto& prediction : view.predictions()) {
     for (const auto& area : prediction.areas) {
-      if (area.outline_in_submap.size() > 2) features.push_back(areaFeature(view, prediction, area));
+      if (area.outline_in_node.size() > 2) features.push_back(areaFeature(view, prediction, area));
     }
   }
   for (const auto id : graph.edges()) features.push_back(edgeFeature(graph, graph.getEdge(id)));

@@ -146,20 +146,19 @@ Json entityOf(const map::MapView& view, const map::Entity& entity) {
 }
 
 Json predictionJson(const map::MapView& view, const map::Prediction& prediction) {
-  const auto* node = view.graph().findNode(prediction.node);
+  const geometry::Pose3 T_map_node = view.T_map_node(prediction);
   Json areas = Json::array();
   for (const auto& area : prediction.areas) {
-    if (node == nullptr) break;
     Polyline outline;
-    for (const auto& point : area.outline_in_submap) {
-      outline.push_back((node->T_map_submap * Eigen::Vector3d(point.x(), point.y(), 0.0)).head<2>());
+    for (const auto& point : area.outline_in_node) {
+      outline.push_back((T_map_node * Eigen::Vector3d(point.x(), point.y(), 0.0)).head<2>());
     }
     areas.push_back({{"threshold", rounded(area.threshold)}, {"outline", pointsJson(outline)}});
   }
   return {{"id", toString(prediction.id)},
           {"cause", toString(prediction.cause)},
           {"node", toString(prediction.node)},
-          {"floor", node == nullptr ? Json(nullptr) : optionalJson(node->floor)},
+          {"floor", optionalJson(floorOf(view, prediction))},
           {"probability", rounded(prediction.probability)},
           {"expectedArea", rounded(prediction.expectedArea)},
           {"state", map::toString(prediction.state)},

@@ -131,15 +131,20 @@ Json predictionJson(const map::Prediction& prediction) {
   Json areas = Json::array();
   for (const auto& area : prediction.areas) {
     Json outline = Json::array();
-    for (const auto& corner : area.outline_in_submap) outline.push_back(array(corner));
-    areas.push_back({{"threshold", number(area.threshold)}, {"outline_in_submap", std::move(outline)}});
+    for (const auto& corner : area.outline_in_node) outline.push_back(array(corner));
+    areas.push_back({{"threshold", number(area.threshold)}, {"outline_in_node", std::move(outline)}});
   }
+  Json room = Json::array();
+  for (const auto& corner : prediction.room_in_node) room.push_back(array(corner));
   return {{"id", toString(prediction.id)},
           {"cause", toString(prediction.cause)},
+          {"submap", toString(prediction.submap)},
           {"node", toString(prediction.node)},
+          {"T_submap_node", poseJson(prediction.T_submap_node)},
           {"probability", number(prediction.probability)},
           {"expected_area", number(prediction.expectedArea)},
           {"areas", std::move(areas)},
+          {"room_in_node", std::move(room)},
           {"made", base::toString(prediction.made)},
           {"state", toString(prediction.state)},
           {"settled", prediction.settled ? Json(base::toString(*prediction.settled)) : Json(nullptr)},

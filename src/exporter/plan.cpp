@@ -45,11 +45,11 @@ Eigen::AlignedBox2d extentOf(const map::MapView& view, const std::vector<map::Tr
     if (node != nullptr && onFloor(node->floor, panel.floor)) extendTo(point.T_map_body.translation());
   }
   for (const auto& prediction : view.predictions()) {
-    const auto& node = graph.getNode(prediction.node);
-    if (!onFloor(node.floor, panel.floor)) continue;
+    const auto* const node = graph.findNode(prediction.node);
+    if (node == nullptr || !onFloor(node->floor, panel.floor)) continue;
     for (const auto& area : prediction.areas) {
-      for (const auto& corner : area.outline_in_submap) {
-        extendTo(node.T_map_submap * Eigen::Vector3d(corner.x(), corner.y(), 0.0));
+      for (const auto& corner : area.outline_in_node) {
+        extendTo(node->T_map_submap * Eigen::Vector3d(corner.x(), corner.y(), 0.0));
       }
     }
   }

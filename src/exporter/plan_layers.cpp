@@ -86,7 +86,7 @@ Group drawPredictedAreas(const PlanContents& plan) {
       Line outline{.closed = true,
                    .style = filledAndStroked(withAlpha(kPredictedColor, 0.13), kPredictedColor, 1.1, {5.0, 3.0}),
                    .tip = nameOf(prediction) + ", threshold " + brief(area.threshold)};
-      for (const auto& corner : area.outline_in_submap) {
+      for (const auto& corner : area.outline_in_node) {
         const Eigen::Vector3d point = placed.node.T_map_submap * Eigen::Vector3d(corner.x(), corner.y(), 0.0);
         outline.points.push_back(placed.panel->toPage(point));
       }

@@ -112,8 +112,7 @@ CSetOfObjects::Ptr predictionObjects(const map::MapView& view, const Pen& pen) {
     map::Drawing drawing;
     for (const auto& area : prediction.areas) {
       map::DrawnLine outline{{}, kPredictedColor, ""};
-      for (const auto& point : area.outline_in_submap)
-        outline.points_in_submap.emplace_back(point.x(), point.y(), 0.02);
+      for (const auto& point : area.outline_in_node) outline.points_in_submap.emplace_back(point.x(), point.y(), 0.02);
       if (!outline.points_in_submap.empty()) outline.points_in_submap.push_back(outline.points_in_submap.front());
       drawing.lines.push_back(std::move(outline));
     }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prodomos/geometry/overlap.hpp"
 
+#include "prodomos/geometry/polygon.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,20 +13,10 @@ namespace prodomos::geometry {
 
 namespace {
 
-using Polygon = std::vector<Eigen::Vector2d>;
 using Face = std::vector<Eigen::Vector3d>;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
-}
-
-/// Positive where counter-clockwise.
-double signedArea(const Polygon& polygon) {
-  double doubled = 0.0;
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
-    doubled += cross(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]);
-  }
-  return 0.5 * doubled;
 }
 
 /// The part of a convex polygon for which height() is not positive (Sutherland and Hodgman 1974). height() must be

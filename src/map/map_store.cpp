@@ -72,6 +72,17 @@ class ChangeWriter {
     }
   }
 
+  void remove(const std::vector<base::SubMapId>& nodes) {
+    auto edges = database_.prepare("DELETE FROM edge WHERE from_node = ?1 OR to_node = ?1");
+    auto row = database_.prepare("DELETE FROM node WHERE id = ? AND kind = 'predicted'");
+    for (const auto id : nodes) {
+      edges << id;
+      edges.run();
+      row << id;
+      row.run();
+    }
+  }
+
   void write(const std::vector<Entity>& entities) {
     auto row = database_.prepare(upsertion("entity", "id",
                                            "node, class, mobility, " + poseColumns() +
@@ -103,11 +114,13 @@ class ChangeWriter {
 
   void write(const std::vector<Prediction>& predictions) {
     auto row = database_.prepare(upsertion("prediction", "id",
-                                           "entity, node, probability, expected_area, areas, made_ns, state, "
-                                           "settled_ns, merged_into, revision"));
+                                           "entity, submap, node, " + poseColumns() +
+                                               ", probability, expected_area, areas, room, made_ns, state, "
+                                               "settled_ns, merged_into, revision"));
     for (const auto& prediction : predictions) {
-      row << prediction.id << prediction.cause << prediction.node << prediction.probability << prediction.expectedArea
-          << toJson(prediction.areas) << prediction.made << toString(prediction.state) << prediction.settled
+      row << prediction.id << prediction.cause << prediction.submap << prediction.node << prediction.T_submap_node
+          << prediction.probability << prediction.expectedArea << toJson(prediction.areas)
+          << toJson(prediction.room_in_node) << prediction.made << toString(prediction.state) << prediction.settled
           << prediction.mergedInto << revision_;
       row.run();
     }
@@ -266,6 +279,7 @@ std::int64_t MapStore::commit(const MapChange& change) {
   writer.write(change.entities);
   writer.write(change.edges);
   writer.remove(change.removedEdges);
+  writer.remove(change.removedNodes);
   writer.write(change.predictions);
   writer.remove(change.removedEntities);
   writer.write(change.trajectory);
@@ -273,7 +287,9 @@ std::int64_t MapStore::commit(const MapChange& change) {
   writer.write(change.tracks);
   writer.write(change.layers);
   if (change.checkpoint) writer.write(*change.checkpoint);
-  if (!change.nodes.empty() || !change.edges.empty() || !change.removedEdges.empty()) writer.updatePlaces();
+  if (!change.nodes.empty() || !change.edges.empty() || !change.removedEdges.empty() || !change.removedNodes.empty()) {
+    writer.updatePlaces();
+  }
   transaction.commit();
   return revision;
 }

@@ -67,21 +67,26 @@ std::vector<Entity> readEntities(const Database& database) {
 
 std::vector<Prediction> readPredictions(const Database& database) {
   std::vector<Prediction> predictions;
+  if (!hasPredictions(database)) return predictions;
   auto row = database.prepare(
-      "SELECT id, entity, node, probability, expected_area, areas, made_ns, state, settled_ns, merged_into "
-      "FROM prediction ORDER BY id");
+      "SELECT id, entity, submap, node, probability, expected_area, areas, room, made_ns, state, "
+      "settled_ns, merged_into, " +
+      poseColumns() + " FROM prediction ORDER BY id");
   while (row.step()) {
     Prediction prediction;
     prediction.id = getId<base::PredictionId>(row, 0);
     prediction.cause = getId<base::EntityId>(row, 1);
-    prediction.node = getId<base::SubMapId>(row, 2);
-    prediction.probability = row.get<double>(3);
-    prediction.expectedArea = row.get<double>(4);
-    prediction.areas = predictedAreasFrom(row.get<std::string>(5));
-    prediction.made = getTime(row, 6);
-    prediction.state = fromName(row.get<std::string>(7), PredictionState::kMerged);
-    if (row.find<std::int64_t>(8)) prediction.settled = getTime(row, 8);
-    prediction.mergedInto = findId<base::SubMapId>(row, 9);
+    prediction.submap = getId<base::SubMapId>(row, 2);
+    prediction.node = getId<base::SubMapId>(row, 3);
+    prediction.probability = row.get<double>(4);
+    prediction.expectedArea = row.get<double>(5);
+    prediction.areas = predictedAreasFrom(row.get<std::string>(6));
+    prediction.room_in_node = outlineFrom(row.get<std::string>(7));
+    prediction.made = getTime(row, 8);
+    prediction.state = fromName(row.get<std::string>(9), PredictionState::kMerged);
+    if (row.find<std::int64_t>(10)) prediction.settled = getTime(row, 10);
+    prediction.mergedInto = findId<base::SubMapId>(row, 11);
+    prediction.T_submap_node = getPose(row, 12);
     predictions.push_back(std::move(prediction));
   }
   return predictions;

@@ -39,6 +39,18 @@ std::string dump(const json& value) {
   return value.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
+json jsonOf(const std::vector<Eigen::Vector2d>& outline) {
+  json corners = json::array();
+  for (const auto& corner : outline) corners.push_back({corner.x(), corner.y()});
+  return corners;
+}
+
+std::vector<Eigen::Vector2d> outlineFrom(const json& corners) {
+  std::vector<Eigen::Vector2d> outline;
+  for (const auto& corner : corners) outline.emplace_back(real(corner.at(0)), real(corner.at(1)));
+  return outline;
+}
+
 }  // namespace
 
 std::string poseColumns(const std::string& prefix) {
@@ -107,25 +119,26 @@ sensors::ClassTable classTableFrom(const std::string& json) {
   return classes;
 }
 
+std::string toJson(const std::vector<Eigen::Vector2d>& outline) {
+  return dump(jsonOf(outline));
+}
+
+std::vector<Eigen::Vector2d> outlineFrom(const std::string& text) {
+  return outlineFrom(json::parse(text));
+}
+
 std::string toJson(const std::vector<PredictedArea>& areas) {
   json list = json::array();
   for (const auto& area : areas) {
-    json outline = json::array();
-    for (const auto& point : area.outline_in_submap) outline.push_back({point.x(), point.y()});
-    list.push_back({{"threshold", area.threshold}, {"outline", outline}});
+    list.push_back({{"threshold", area.threshold}, {"outline", jsonOf(area.outline_in_node)}});
   }
   return dump(list);
 }
 
-std::vector<PredictedArea> predictedAreasFrom(const std::string& json) {
+std::vector<PredictedArea> predictedAreasFrom(const std::string& text) {
   std::vector<PredictedArea> areas;
-  for (const auto& entry : nlohmann::json::parse(json)) {
-    PredictedArea area;
-    area.threshold = real(entry.at("threshold"));
-    for (const auto& point : entry.at("outline")) {
-      area.outline_in_submap.emplace_back(real(point.at(0)), real(point.at(1)));
-    }
-    areas.push_back(std::move(area));
+  for (const auto& entry : json::parse(text)) {
+    areas.push_back({real(entry.at("threshold")), outlineFrom(entry.at("outline"))});
   }
   return areas;
 }

@@ -61,6 +61,8 @@ Matrix6 symmetricFrom(const std::string& upperTriangle);
 std::string toJson(const sensors::ClassTable& classes);
 sensors::ClassTable classTableFrom(const std::string& json);
 std::string toJson(const std::vector<PredictedArea>& areas);
+std::string toJson(const std::vector<Eigen::Vector2d>& outline);
+std::vector<Eigen::Vector2d> outlineFrom(const std::string& text);
 std::vector<PredictedArea> predictedAreasFrom(const std::string& json);
 
 /// Null where the sub-map has no such layer or the type is unknown to this version. Throws base::FileError where its

@@ -47,11 +47,6 @@ CREATE TABLE edge (
   x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL, qx REAL NOT NULL, qy REAL NOT NULL, qz REAL NOT NULL, qw REAL NOT NULL,
   information TEXT NOT NULL, entity INTEGER REFERENCES entity, revision INTEGER NOT NULL);
 
-CREATE TABLE prediction (
-  id INTEGER PRIMARY KEY, entity INTEGER NOT NULL REFERENCES entity, node INTEGER NOT NULL REFERENCES node,
-  probability REAL NOT NULL, expected_area REAL NOT NULL, areas TEXT NOT NULL, made_ns INTEGER NOT NULL,
-  state TEXT NOT NULL, settled_ns INTEGER, merged_into INTEGER REFERENCES node, score TEXT, revision INTEGER NOT NULL);
-
 CREATE TABLE track (
   id INTEGER PRIMARY KEY, session INTEGER NOT NULL REFERENCES session, class TEXT NOT NULL, attributes TEXT NOT NULL,
   revision INTEGER NOT NULL);
@@ -72,6 +67,16 @@ CREATE TABLE layer (
 
 CREATE TABLE checkpoint (
   session INTEGER PRIMARY KEY REFERENCES session, crc32 INTEGER NOT NULL, state BLOB NOT NULL, revision INTEGER NOT NULL);
+)sql";
+
+// The node of a prediction that was settled is in the graph no more.
+constexpr const char* kPredictionTable = R"sql(
+CREATE TABLE prediction (
+  id INTEGER PRIMARY KEY, entity INTEGER NOT NULL REFERENCES entity, submap INTEGER NOT NULL REFERENCES node,
+  node INTEGER NOT NULL,
+  x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL, qx REAL NOT NULL, qy REAL NOT NULL, qz REAL NOT NULL, qw REAL NOT NULL,
+  probability REAL NOT NULL, expected_area REAL NOT NULL, areas TEXT NOT NULL, room TEXT NOT NULL, made_ns INTEGER NOT NULL,
+  state TEXT NOT NULL, settled_ns INTEGER, merged_into INTEGER REFERENCES node, revision INTEGER NOT NULL);
 )sql";
 
 // Where the robot was within its sub-map, which never moves internally: refinement moves the sub-maps alone.
@@ -135,6 +140,7 @@ void createSchema(const Database& database) {
   database.execute("PRAGMA application_id = " + std::to_string(kApplicationId));
   database.execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
   database.execute(kTables);
+  database.execute(kPredictionTable);
   database.execute(kTrajectoryTable);
   database.execute(trajectoryView());
   transaction.commit();
@@ -143,16 +149,24 @@ void createSchema(const Database& database) {
 void upgradeSchema(const Database& database) {
   if (versionOf(database) == kSchemaVersion) return;
   Database::Transaction transaction(database);
-  database.execute("ALTER TABLE node ADD COLUMN covariance TEXT");
-  moveTrajectoryIntoSubMaps(database);
-  database.execute("DROP TABLE trajectory_1");
-  database.execute(trajectoryView());
+  if (versionOf(database) < 2) {
+    database.execute("ALTER TABLE node ADD COLUMN covariance TEXT");
+    moveTrajectoryIntoSubMaps(database);
+    database.execute("DROP TABLE trajectory_1");
+    database.execute(trajectoryView());
+  }
+  database.execute("DROP TABLE prediction");  // nobody wrote any before version 3
+  database.execute(kPredictionTable);
   database.execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
   transaction.commit();
 }
 
 bool hasCovariances(const Database& database) {
   return versionOf(database) >= 2;
+}
+
+bool hasPredictions(const Database& database) {
+  return versionOf(database) >= 3;
 }
 
 void checkSchema(const Database& database) {

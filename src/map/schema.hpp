@@ -7,7 +7,7 @@
 namespace prodomos::map {
 
 /// The version of the map file's tables, in PRAGMA user_version.
-constexpr int kSchemaVersion = 2;
+constexpr int kSchemaVersion = 3;
 /// "prdm", in PRAGMA application_id: tells a map from other SQLite files.
 constexpr int kApplicationId = 0x7072646D;
 
@@ -19,5 +19,6 @@ void checkSchema(const Database& database);
 void upgradeSchema(const Database& database);
 /// What an older version does not have is NULL in queries.
 bool hasCovariances(const Database& database);
+bool hasPredictions(const Database& database);
 
 }  // namespace prodomos::map

@@ -41,6 +41,7 @@ void describe(base::ConfigVisitor& visitor, MapperConfig& config) {
   describe(visitor, config.loops);
   describe(visitor, config.layers);
   describe(visitor, config.perception);
+  describe(visitor, config.prediction);
 }
 
 }  // namespace prodomos::mapper

@@ -92,19 +92,20 @@ GraphRefiner::GraphRefiner(const localization::LoopCloserConfig& config, const m
   const auto view = store.view();
   for (const auto id : view.graph().nodes()) {
     const auto& node = view.graph().getNode(id);
+    nextNode_ = id.value + 1;
+    if (node.kind != map::SubMapKind::kObserved) continue;
     vertices_.push_back({node, node.T_map_submap, true});
-    if (!findsLoops_ || node.kind != map::SubMapKind::kObserved) continue;
+    if (!findsLoops_) continue;
     if (const auto layers = layersOf(id); layers.surface && layers.grid) closer_.add(id, layers);
   }
-  for (const auto id : view.graph().edges()) ties_.push_back({view.graph().getEdge(id), TieState::kBelieved, true});
-}
-
-base::SubMapId GraphRefiner::newNodeId() const {
-  return {vertices_.empty() ? 0 : vertices_.back().node.id.value + 1};
-}
-
-base::EdgeId GraphRefiner::newEdgeId() const {
-  return {ties_.empty() ? 0 : ties_.back().edge.id.value + 1};
+  for (const auto id : view.graph().edges()) {
+    const auto& edge = view.graph().getEdge(id);
+    nextEdge_ = id.value + 1;
+    const bool isObserved = view.graph().getNode(edge.to).kind == map::SubMapKind::kObserved;
+    if (isObserved) ties_.push_back({edge, TieState::kBelieved, true});
+  }
+  // Nor those of bets that were settled.
+  for (const auto& prediction : view.predictions()) nextNode_ = std::max(nextNode_, prediction.node.value + 1);
 }
 
 GraphRefiner::Vertex& GraphRefiner::vertexOf(base::SubMapId id) {
@@ -132,6 +133,12 @@ std::vector<base::SubMapId> GraphRefiner::nodesOf(base::SessionId session) const
     if (node.session == session && node.kind == map::SubMapKind::kObserved) ids.push_back(node.id);
   }
   return ids;
+}
+
+std::vector<map::Node> GraphRefiner::nodes() const {
+  std::vector<map::Node> nodes;
+  for (const auto& vertex : vertices_) nodes.push_back(vertex.node);
+  return nodes;
 }
 
 std::vector<map::Node> GraphRefiner::nearest(base::SubMapId id, double reach, std::size_t most) const {
@@ -407,6 +414,7 @@ void GraphRefiner::addTo(map::MapChange& change, base::SubMapId running, bool al
 }
 
 void GraphRefiner::save(base::ByteWriter& out) const {
+  out << nextNode_ << nextEdge_;
   out << static_cast<std::uint64_t>(vertices_.size());
   for (const auto& [node, T_map_told, isTold] : vertices_) {
     saveNode(out, node);
@@ -421,6 +429,7 @@ void GraphRefiner::save(base::ByteWriter& out) const {
 }
 
 void GraphRefiner::load(base::ByteReader& in) {
+  in >> nextNode_ >> nextEdge_;
   vertices_.resize(countOf(in));
   for (auto& [node, T_map_told, isTold] : vertices_) {
     node = loadNode(in);

@@ -13,15 +13,15 @@
 
 namespace prodomos::mapper {
 
-/// Holds the graph of the whole map, all sessions, and keeps its poses the best: looks for loops of each sub-map that
+/// Holds the graph of all observed sub-maps, of all sessions, and keeps its poses the best: looks for loops of each sub-map that
 /// is finished, and refines all poses when one is found.
 class GraphRefiner {
  public:
   /// Knows what the store holds.
   GraphRefiner(const localization::LoopCloserConfig& config, const map::MapStore& store);
 
-  base::SubMapId newNodeId() const;
-  base::EdgeId newEdgeId() const;
+  base::SubMapId newNodeId() { return {nextNode_++}; }
+  base::EdgeId newEdgeId() { return {nextEdge_++}; }
 
   /// A sub-map begins; the edge leads to it. Without one, it begins a component of its own.
   void add(const map::Node& node, const std::optional<map::Edge>& edge);
@@ -34,7 +34,9 @@ class GraphRefiner {
 
   const map::Node& node(base::SubMapId id) const;
   const geometry::Pose3& T_map_submap(base::SubMapId id) const;
-  /// Observed sub-maps of the session, by id.
+  /// All, by id.
+  std::vector<map::Node> nodes() const;
+  /// Of the session, by id.
   std::vector<base::SubMapId> nodesOf(base::SessionId session) const;
   /// Others of the same session and floor whose origins are no farther than `reach`: the nearest first, at most `most`.
   std::vector<map::Node> nearest(base::SubMapId id, double reach, std::size_t most) const;
@@ -80,6 +82,8 @@ class GraphRefiner {
   const map::MapStore& store_;
   bool findsLoops_;
   localization::LoopCloser closer_;
+  std::int64_t nextNode_ = 0;
+  std::int64_t nextEdge_ = 0;
   std::vector<Vertex> vertices_;  // ascending by id
   std::vector<Tie> ties_;         // ascending by id
   std::deque<std::pair<base::SubMapId, localization::MatchedLayers>> recentLayers_;

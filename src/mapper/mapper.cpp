@@ -3,6 +3,7 @@
 #include "prodomos/mapper/mapper.hpp"
 
 #include "prodomos/perception/perception.hpp"
+#include "prodomos/prediction/predictor.hpp"
 
 #include "mapper/floor_tracker.hpp"
 #include "mapper/graph_bytes.hpp"
@@ -28,7 +29,7 @@ constexpr std::size_t kMostWaiting = 64;
 constexpr base::Duration kLongestWait = std::chrono::seconds(2);
 
 /// Of what a checkpoint holds. Raise it with every change there.
-constexpr int kCheckpointVersion = 3;
+constexpr int kCheckpointVersion = 4;
 
 /// Where there is something, and where nothing: what layers are made of. Other readings do not begin sub-maps.
 bool tellsDistances(const sensors::ReadingData& data) {
@@ -84,8 +85,8 @@ class Mapper::Impl {
   void beginTravel(const geometry::Pose3& T_travel_body, base::Time time);
   void standUpright(const geometry::Pose3& T_upright_travel);
   void passOn(map::EdgeKind kind, const geometry::Pose3& T_travel_body, base::Time time);
-  map::Node nodeBelow(const geometry::Pose3& T_travel_body, base::Time time) const;
-  map::Edge edgeBetween(const RunningSubMap& from, const map::Node& to, map::EdgeKind kind) const;
+  map::Node nodeBelow(const geometry::Pose3& T_travel_body, base::Time time);
+  map::Edge edgeBetween(const RunningSubMap& from, const map::Node& to, map::EdgeKind kind);
   /// Of the ground below the robot, above the first floor.
   double heightAt(const geometry::Pose3& T_travel_body) const {
     return (session_.T_map_travel * T_travel_body).translation().z() - clearance_;
@@ -102,6 +103,8 @@ class Mapper::Impl {
   void refine();
   /// For doorways, in a finished sub-map and what lies about it.
   void lookAround(base::SubMapId submap);
+  /// Bets on what lies beyond, as far as the finished sub-map told anything new; everywhere, where none is named.
+  void predict(std::optional<base::SubMapId> finished);
 
   void use(const sensors::Reading& reading);
   void skip(const std::string& reason) { ++report.skippedByReason[reason]; }
@@ -124,6 +127,7 @@ class Mapper::Impl {
   GraphRefiner refiner_;
   Surroundings surroundings_;
   std::unique_ptr<perception::Perception> perception_;
+  prediction::Predictor predictor_;  // its past stands in the map
   std::optional<RunningSubMap> running_;  // none until the first reading is placed
   double clearance_ = 0.0;                // height of the body above the floor
   geometry::Pose3 T_travel_lastBody_ = geometry::Pose3::Identity();
@@ -137,7 +141,8 @@ Mapper::Impl::Impl(map::MapStore& store, const MapperConfig& config, const senso
       localizer_(config, log),
       floors_(config.floor.leastHeight),
       refiner_(loopsOf(config, localizer_), store),
-      surroundings_(store, refiner_) {
+      surroundings_(store, refiner_),
+      predictor_(config.prediction, store.view()) {
   const auto before = store.view();
   const auto& sessions = before.sessions();
   if (sessions.empty()) {
@@ -315,6 +320,7 @@ void Mapper::Impl::passOn(map::EdgeKind kind, const geometry::Pose3& T_travel_bo
   lookAround(running_->node().id);
   const auto node = nodeBelow(T_travel_body, time);
   const auto edge = edgeBetween(*running_, node, kind);
+  predict(running_->node().id);
   const auto finished = std::exchange(running_, RunningSubMap(node, edge, config_.layers));
   perception_->enter(node.T_travel_submap.inverse() * finished->node().T_travel_submap);
   refiner_.add(node, edge);
@@ -323,6 +329,7 @@ void Mapper::Impl::passOn(map::EdgeKind kind, const geometry::Pose3& T_travel_bo
   change.floors = floors_.floors();
   finished->addTo(change);
   perception_->addTo(change);
+  predictor_.addTo(change);
   refiner_.addTo(change, node.id, false);
   change.checkpoint = checkpoint();
   commit(std::move(change));
@@ -353,7 +360,21 @@ void Mapper::Impl::lookAround(base::SubMapId submap) {
   if (around) perception_->lookAround(*around, submapPoses());
 }
 
-map::Node Mapper::Impl::nodeBelow(const geometry::Pose3& T_travel_body, base::Time time) const {
+void Mapper::Impl::predict(std::optional<base::SubMapId> finished) {
+  const auto timing = times.measure("predict");
+  const auto entities = perception_->entities();
+  const auto nodes = refiner_.nodes();
+  predictor_.update({.now = session_.end,
+                     .session = session_.id,
+                     .entities = entities,
+                     .nodes = nodes,
+                     .gridsNear = [&](const auto& spot) { return surroundings_.gridsNear(spot, running_->submap()); },
+                     .newNodeId = [&] { return refiner_.newNodeId(); },
+                     .newEdgeId = [&] { return refiner_.newEdgeId(); }},
+                    finished);
+}
+
+map::Node Mapper::Impl::nodeBelow(const geometry::Pose3& T_travel_body, base::Time time) {
   map::Node node;
   node.id = refiner_.newNodeId();
   node.session = session_.id;
@@ -371,7 +392,7 @@ map::Node Mapper::Impl::nodeBelow(const geometry::Pose3& T_travel_body, base::Ti
 }
 
 /// As surely as the way within the sub-map is known.
-map::Edge Mapper::Impl::edgeBetween(const RunningSubMap& from, const map::Node& to, map::EdgeKind kind) const {
+map::Edge Mapper::Impl::edgeBetween(const RunningSubMap& from, const map::Node& to, map::EdgeKind kind) {
   constexpr double kLeastSigma = 1e-3;  // metres, radians; nothing is known better
   map::Edge edge;
   edge.id = refiner_.newEdgeId();
@@ -404,10 +425,12 @@ void Mapper::Impl::finish(const sensors::EndOfLog& end) {
     perception_->finish(running_->submap());
     // Once more everywhere: by now the neighbours are known on all sides, and all poses are the best.
     for (const auto submap : refiner_.nodesOf(session_.id)) lookAround(submap);
+    predict(std::nullopt);
   }
   const auto last = std::exchange(running_, std::nullopt);
   if (last) last->addTo(change);
   perception_->addTo(change);
+  predictor_.addTo(change);
   refiner_.addTo(change, base::SubMapId{-1}, true);
   session_.state = map::SessionState::kComplete;
   change.events.push_back({session_.end, session_.id, "session_finished", toString(session_.id), "{}"});

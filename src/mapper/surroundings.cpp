@@ -58,7 +58,7 @@ Surroundings::Grid Surroundings::gridOf(base::SubMapId submap, const map::SubMap
   if (submap == running.node.id) return {Grid(), running.findLayer<map::OccupancyGrid>()};  // owned by the sub-map
   const auto known = std::ranges::find(recent_, submap, &std::pair<base::SubMapId, Grid>::first);
   if (known != recent_.end()) return known->second;
-  const Grid grid = std::dynamic_pointer_cast<const map::OccupancyGrid>(
+  Grid grid = std::dynamic_pointer_cast<const map::OccupancyGrid>(
       std::shared_ptr<const map::MapLayer>(store_.findLayer(submap, map::OccupancyGrid::kTypeId)));
   recent_.emplace_back(submap, grid);
   if (recent_.size() > kRecent) recent_.pop_front();

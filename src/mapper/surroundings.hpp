@@ -4,6 +4,7 @@
 
 #include "prodomos/map/map_store.hpp"
 #include "prodomos/perception/perception.hpp"
+#include "prodomos/prediction/surroundings.hpp"
 
 #include "mapper/graph_refiner.hpp"
 
@@ -23,6 +24,8 @@ class Surroundings {
 
   /// None where the sub-map has no grid. `running`: the one that is not in the store yet.
   std::optional<perception::Perception::Surroundings> of(base::SubMapId submap, const map::SubMap& running);
+  /// Of the sub-maps that began nearest to a spot of the map, and may know something about it.
+  std::vector<prediction::PlacedGrid> gridsNear(const Eigen::Vector3d& spot_in_map, const map::SubMap& running);
 
  private:
   using Grid = std::shared_ptr<const map::OccupancyGrid>;

@@ -101,23 +101,6 @@ RoomUse useOfLabel(std::string_view label) {
   return RoomUse::kRoom;
 }
 
-double signedArea(const Polygon& polygon) {
-  double doubled = 0.0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) doubled += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
-  return doubled / 2.0;
-}
-
-bool contains(const Polygon& polygon, const Eigen::Vector2d& point) {
-  bool inside = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const auto& a = polygon[i];
-    const auto& b = polygon[j];
-    if ((a.y() > point.y()) == (b.y() > point.y())) continue;
-    if (point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
-  }
-  return inside;
-}
-
 bool isSlit(const Polygon& polygon, std::size_t edge) {
   constexpr double kWidest = 1e-3;
   const std::size_t n = polygon.size();

@@ -108,10 +108,13 @@ class SmallMap {
                              .T_travel_submap = T_map_node});
     change_.predictions.push_back({.id = {id},
                                    .cause = {id},
+                                   .submap = {submap},
                                    .node = {10 + id},
+                                   .T_submap_node = originOf(submap).inverse() * geometry::toPose3(T_world_node, z),
                                    .probability = 0.9,
                                    .expectedArea = 10,
-                                   .areas = {{.threshold = 0.5, .outline_in_submap = area}},
+                                   .areas = {{.threshold = 0.5, .outline_in_node = area}},
+                                   .room_in_node = {},
                                    .made = at(5),
                                    .settled = std::nullopt,
                                    .mergedInto = std::nullopt});

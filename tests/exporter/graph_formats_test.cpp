@@ -101,7 +101,7 @@ TEST(Json, KeepsPredictionsApart) {
   EXPECT_EQ(prediction["cause"], "o2");
   EXPECT_EQ(prediction["state"], "open");
   EXPECT_EQ(prediction["settled"], nullptr);
-  EXPECT_EQ(prediction["areas"][0]["outline_in_submap"][2], json({2.5, 2.0}));
+  EXPECT_EQ(prediction["areas"][0]["outline_in_node"][2], json({2.5, 2.0}));
 }
 
 TEST(Geojson, SaysThatItsMetresAreNotDegrees) {

@@ -329,11 +329,14 @@ TEST_F(MapFile, KeepsPredictions) {
   Prediction open;
   open.id = {1};
   open.cause = {1};
+  open.submap = {1};
   open.node = {2};
+  open.T_submap_node = geometry::toPose3({2, -1, 0.5}, 0.25);
+  open.room_in_node = {{0, 1}, {kNan, -2}};
   open.probability = 0.82;
   open.expectedArea = 11.5;
-  open.areas = {{.threshold = 0.5, .outline_in_submap = {{-1, 2}, {0.1, 1.0 / 3.0}}},
-                {.threshold = kNan, .outline_in_submap = {{kNan, 1}}}};
+  open.areas = {{.threshold = 0.5, .outline_in_node = {{-1, 2}, {0.1, 1.0 / 3.0}}},
+                {.threshold = kNan, .outline_in_node = {{kNan, 1}}}};
   open.made = at(12);
   Prediction settled = open;
   settled.id = {2};
@@ -348,7 +351,13 @@ TEST_F(MapFile, KeepsPredictions) {
   ASSERT_EQ(view.predictions().size(), 2U);
   const auto& first = view.predictions()[0];
   EXPECT_EQ(first.cause, base::EntityId{1});
+  EXPECT_EQ(first.submap, base::SubMapId{1});
   EXPECT_EQ(first.node, base::SubMapId{2});
+  EXPECT_TRUE(first.T_submap_node.isApprox(open.T_submap_node));
+  EXPECT_TRUE(view.T_map_node(first).isApprox(view.graph().getNode({1}).T_map_submap * open.T_submap_node));
+  ASSERT_EQ(first.room_in_node.size(), 2U);
+  EXPECT_EQ(first.room_in_node[0], open.room_in_node[0]);
+  EXPECT_TRUE(std::isnan(first.room_in_node[1].x()));
   EXPECT_EQ(first.probability, 0.82);
   EXPECT_EQ(first.expectedArea, 11.5);
   EXPECT_EQ(first.made, at(12));
@@ -357,9 +366,9 @@ TEST_F(MapFile, KeepsPredictions) {
   EXPECT_EQ(first.mergedInto, std::nullopt);
   ASSERT_EQ(first.areas.size(), 2U);
   EXPECT_EQ(first.areas[0].threshold, 0.5);
-  EXPECT_EQ(first.areas[0].outline_in_submap, open.areas[0].outline_in_submap);
+  EXPECT_EQ(first.areas[0].outline_in_node, open.areas[0].outline_in_node);
   EXPECT_TRUE(std::isnan(first.areas[1].threshold));
-  EXPECT_TRUE(std::isnan(first.areas[1].outline_in_submap.at(0).x()));
+  EXPECT_TRUE(std::isnan(first.areas[1].outline_in_node.at(0).x()));
   const auto& second = view.predictions()[1];
   EXPECT_THAT(second.areas, IsEmpty());
   EXPECT_EQ(second.state, PredictionState::kMerged);

@@ -224,7 +224,9 @@ inline map::MapStore sampleHouse(const std::string& log = "/data/robot/two_floor
   map::Prediction bet;
   bet.id = {1};
   bet.cause = {3};
+  bet.submap = {2};
   bet.node = {6};
+  bet.T_submap_node = geometry::toPose3({10.0, 1.4, 0.1}).inverse() * geometry::toPose3({20.5, 5.5, 1.57});
   bet.probability = 0.82;
   bet.expectedArea = 17.5;
   bet.made = house.change.sessions[0].begin;

@@ -148,15 +148,18 @@ class SampleMap {
   }
 
   static void addPrediction(map::MapChange& change) {
-    const map::PredictedArea wide{.threshold = 0.5, .outline_in_submap = {{-1.2, -2}, {2.5, -2}, {2.5, 2}, {-1.2, 2}}};
+    const map::PredictedArea wide{.threshold = 0.5, .outline_in_node = {{-1.2, -2}, {2.5, -2}, {2.5, 2}, {-1.2, 2}}};
     const map::PredictedArea narrow{.threshold = 0.7,
-                                    .outline_in_submap = {{-1.2, -1.2}, {1.6, -1.2}, {1.6, 1.2}, {-1.2, 1.2}}};
+                                    .outline_in_node = {{-1.2, -1.2}, {1.6, -1.2}, {1.6, 1.2}, {-1.2, 1.2}}};
     change.predictions.push_back({.id = {1},
                                   .cause = {2},
+                                  .submap = {1},
                                   .node = {6},
+                                  .T_submap_node = geometry::toPose3({9.25, 0, 0}),
                                   .probability = 0.82,
                                   .expectedArea = 11.5,
                                   .areas = {wide, narrow},
+                                  .room_in_node = {{-1.1, -2.2}, {2.6, -2.2}, {2.6, 2.2}, {-1.1, 2.2}},
                                   .made = at(12),
                                   .state = map::PredictionState::kOpen,
                                   .settled = std::nullopt,

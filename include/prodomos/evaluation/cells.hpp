@@ -2,67 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "prodomos/geometry/grid_index.hpp"
-#include "prodomos/geometry/pose.hpp"
+#include "prodomos/geometry/cells.hpp"
 
-#include <Eigen/Core>
-
-#include <vector>
-
-/// Shapes as sets of small square cells: the one place where polygons are cut, joined and measured for the scores of
-/// predictions. A cell belongs to a shape where its centre does.
+/// Shapes are scored as sets of cells.
 namespace prodomos::evaluation {
 
-using Polygon = std::vector<Eigen::Vector2d>;  ///< not closed, either way round
-
-inline constexpr double kCell = 0.05;  ///< metres, of a cell's side
-
-/// Those of an endless grid at the origin whose centres lie in the polygon (even-odd), row by row; none where a corner
-/// is not finite.
-std::vector<geometry::CellIndex> cellsIn(const Polygon& polygon, double resolution = kCell);
-
-Eigen::Vector2d centreOf(geometry::CellIndex cell, double resolution = kCell);
-
-/// Of all polygons; empty where there is no corner.
-geometry::CellBox boxOf(const std::vector<Polygon>& polygons, double resolution = kCell);
-
-Polygon transformed(const geometry::Pose2& T_a_b, const Polygon& polygon_in_b);
-/// In the plane of a, as seen from above.
-Polygon transformed(const geometry::Pose3& T_a_b, const Polygon& polygon_in_b);
+using geometry::boxOf;
+using geometry::CellMap;
+using geometry::cellsIn;
+using geometry::centreOf;
+using geometry::kCell;
+using geometry::Polygon;
 
 /// `least` … `most` ahead (x), from `right` (negative) to `left` across (y), in the frame of the door.
 Polygon boxBehind(const geometry::Pose2& T_world_door, double left, double right, double least, double most);
-
-/// A value for each cell of a box, `outside` for all others.
-template <typename Value>
-class CellMap {
- public:
-  CellMap() = default;
-  CellMap(const geometry::CellBox& box, Value outside)
-      : box_(box),
-        outside_(outside),
-        values_(box.empty() ? 0 : static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height()),
-                outside) {}
-
-  const geometry::CellBox& box() const { return box_; }
-  Value at(geometry::CellIndex cell) const { return box_.contains(cell) ? values_[index(cell)] : outside_; }
-  /// Null outside of the box.
-  Value* find(geometry::CellIndex cell) { return box_.contains(cell) ? &values_[index(cell)] : nullptr; }
-  void fill(const Polygon& polygon, Value value, double resolution = kCell) {
-    for (const auto cell : cellsIn(polygon, resolution)) {
-      if (Value* found = find(cell)) *found = value;
-    }
-  }
-
- private:
-  std::size_t index(geometry::CellIndex cell) const {
-    return static_cast<std::size_t>(cell.y - box_.first.y) * static_cast<std::size_t>(box_.width()) +
-           static_cast<std::size_t>(cell.x - box_.first.x);
-  }
-
-  geometry::CellBox box_;
-  Value outside_{};
-  std::vector<Value> values_;
-};
 
 }  // namespace prodomos::evaluation

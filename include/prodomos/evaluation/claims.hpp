@@ -45,6 +45,7 @@ struct ClaimedSpace {
   std::optional<base::Time> settled;
   map::PredictionState state = map::PredictionState::kOpen;
   std::map<double, Polygon> areas_in_world;  ///< by threshold
+  Polygon room_in_world;                     ///< the likely room; empty: not told
 };
 
 struct Claims {
@@ -57,8 +58,5 @@ struct Claims {
 
 /// Throws base::Error where map and truth have no time in common.
 Claims claimsOf(const map::MapView& view, const Truth& truth);
-
-/// T_world_submap of every sub-map, also of predicted ones, which go with the sub-map that their cause was seen from.
-std::map<base::SubMapId, geometry::Pose3> truthFromNodes(const map::MapView& view, const Truth& truth);
 
 }  // namespace prodomos::evaluation

@@ -35,6 +35,7 @@ struct MapChange {
   /// Doors and stairs that were refuted, or turned out to be others seen before. Edges through them lose their cause;
   /// one that a prediction bets on stays for the ledger's sake, with confidence 0.
   std::vector<base::EntityId> removedEntities{};
+  std::vector<base::SubMapId> removedNodes{};  ///< predicted ones that were settled, and their edges
 };
 
 /// The map file: SQLite in WAL mode, documented in docs/map-file.md. One store writes at a time; any number of MapViews

@@ -44,6 +44,10 @@ class MapView {
   const std::vector<Entity>& entities() const { return entities_; }
   std::vector<Entity> entitiesOf(base::SubMapId submap) const;
   const std::vector<Prediction>& predictions() const { return predictions_; }
+  /// Where the prediction's node lies, or, of a settled one, lay.
+  geometry::Pose3 T_map_node(const Prediction& prediction) const {
+    return graph_.getNode(prediction.submap).T_map_submap * prediction.T_submap_node;
+  }
 
   /// Types of the layers that the sub-map holds, in the order in which they are drawn; also of types unknown here.
   std::vector<std::string> layersOf(base::SubMapId submap) const;

@@ -4,6 +4,7 @@
 
 #include "prodomos/base/id.hpp"
 #include "prodomos/base/time.hpp"
+#include "prodomos/geometry/pose.hpp"
 
 #include <Eigen/Core>
 
@@ -18,17 +19,20 @@ enum class PredictionState { kOpen, kConfirmed, kRefuted, kMerged };
 /// {u | f(u) / max f > threshold}: the free floor that is expected at one relative threshold (002 eq. (2), (3), (5)).
 struct PredictedArea {
   double threshold = 0.5;
-  std::vector<Eigen::Vector2d> outline_in_submap;  ///< in the frame of the predicted sub-map
+  std::vector<Eigen::Vector2d> outline_in_node;  ///< in the frame of the prediction's node
 };
 
 /// An entry of the ledger: a bet that gets settled.
 struct Prediction {
   base::PredictionId id;
-  base::EntityId cause;       ///< the door, the staircase, the human
-  base::SubMapId node;        ///< the predicted sub-map; of a human: the observed one it stands in
+  base::EntityId cause;   ///< the door, the staircase, the human
+  base::SubMapId submap;  ///< the observed one that its cause lies in
+  base::SubMapId node;    ///< the predicted one, in the graph until it is settled; of a human: `submap`
+  geometry::Pose3 T_submap_node = geometry::Pose3::Identity();
   double probability = 0.0;   ///< that an unseen space lies behind
   double expectedArea = 0.0;  ///< m²
   std::vector<PredictedArea> areas;
+  std::vector<Eigen::Vector2d> room_in_node;  ///< outline of the room that is likely there; empty: not guessed
   base::Time made{};
   PredictionState state = PredictionState::kOpen;
   std::optional<base::Time> settled;

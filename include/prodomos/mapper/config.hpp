@@ -7,6 +7,7 @@
 #include "prodomos/localization/rgbd_odometry.hpp"
 #include "prodomos/map/config.hpp"
 #include "prodomos/perception/config.hpp"
+#include "prodomos/prediction/config.hpp"
 
 namespace prodomos::mapper {
 
@@ -49,6 +50,7 @@ struct MapperConfig {
   localization::LoopCloserConfig loops;
   map::LayersConfig layers;
   perception::PerceptionConfig perception;
+  prediction::PredictionConfig prediction;
 };
 
 void describe(base::ConfigVisitor& visitor, MapperConfig& config);

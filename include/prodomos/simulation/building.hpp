@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "prodomos/geometry/pose.hpp"
+#include "prodomos/geometry/polygon.hpp"
 #include "prodomos/map/entity.hpp"
 #include "prodomos/simulation/surface.hpp"
 
@@ -21,7 +21,9 @@
 /// counter-clockwise seen from above; times in seconds from the log's first reading.
 namespace prodomos::simulation {
 
-using Polygon = std::vector<Eigen::Vector2d>;
+using geometry::contains;
+using geometry::Polygon;
+using geometry::signedArea;
 
 struct Storey {
   double floor_z = 0.0;
@@ -167,9 +169,6 @@ int roomAt(const Building& building, int storey, const Eigen::Vector2d& point);
 /// By label: "CORRIDOR", "HALL", "LOBBY" and the like are corridors, "STAIRS", "ELEVATOR".
 RoomUse useOfLabel(std::string_view label);
 
-/// Positive where counter-clockwise, m².
-double signedArea(const Polygon& polygon);
-bool contains(const Polygon& polygon, const Eigen::Vector2d& point);
 /// Does the edge from this corner run back beside another one, less than a millimetre off? So a room that goes round
 /// others has what is inside joined with its outline: no wall stands there.
 bool isSlit(const Polygon& polygon, std::size_t edge);

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "prodomos/prediction/extrapolation.hpp"
+
+namespace prodomos::prediction {
+
+struct PredictionConfig {
+  bool enabled = true;
+  double leastProbability = 0.3;  ///< bets that are less likely to come true are not made
+  ExtrapolationConfig extrapolation;
+};
+
+void describe(base::ConfigVisitor& visitor, PredictionConfig& config);
+
+}  // namespace prodomos::prediction

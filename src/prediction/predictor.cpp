@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: 2026 the prodomos authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "prodomos/prediction/predictor.hpp"
+
+#include "prodomos/prediction/room_guess.hpp"
+
+#include "prediction/space_behind.hpp"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace prodomos::prediction {
+
+namespace {
+
+using geometry::Pose3;
+using map::PredictionState;
+
+constexpr double kReach = 15.0;        // metres from a sub-map's origin to what its readings may tell something about
+constexpr double kLeastSpace = 2.0;    // m²; what is smaller is no room
+constexpr double kMostlyUnseen = 1.5;  // m² not seen for one that was: less, and the room is known
+constexpr double kLeastMove = 1e-3;    // metres, radians; what moves less need not be told
+constexpr double kStairsLead = 0.97;   // that a true flight leads somewhere
+constexpr double kPlacedAt = 0.1;      // metres, radians: how well a door's sub-map is known to lie behind it
+
+bool opensSpace(const map::Entity& entity) {
+  return std::holds_alternative<map::Door>(entity.attributes) ||
+         std::holds_alternative<map::Staircase>(entity.attributes);
+}
+
+double openingWidth(const map::Entity& entity) {
+  if (const auto* door = std::get_if<map::Door>(&entity.attributes)) return door->width;
+  return std::get<map::Staircase>(entity.attributes).stepWidth;
+}
+
+template <typename Things, typename Id>
+auto findById(Things& things, Id id) {
+  const auto found = std::ranges::find(things, id, [](const auto& thing) { return thing.id; });
+  return found == things.end() ? nullptr : &*found;
+}
+
+bool isSame(const Pose3& a, const Pose3& b) {
+  const Pose3 between = a.inverse() * b;
+  return between.translation().norm() < kLeastMove && geometry::rotationAngle(between) < kLeastMove;
+}
+
+map::Matrix6 informationOf(const map::Entity& entity) {
+  const map::Matrix6 covariance = entity.covariance + kPlacedAt * kPlacedAt * map::Matrix6::Identity();
+  return covariance.inverse();
+}
+
+/// An observed sub-map that began in the space.
+std::optional<base::SubMapId> submapWithin(const SpaceBehind& space, const Pose3& T_map_here,
+                                           std::span<const map::Node> nodes) {
+  for (const auto& node : nodes) {
+    const Eigen::Vector3d origin_in_here = T_map_here.inverse() * node.T_map_submap.translation();
+    const auto cell = geometry::cellAt(origin_in_here.x(), origin_in_here.y(), Surroundings::kCell);
+    if (std::abs(origin_in_here.z()) < Surroundings::kSameFloor && space.cells.at(cell) != 0) return node.id;
+  }
+  return std::nullopt;
+}
+
+/// How likely it is that there is a space of 2 m² which nobody has seen.
+double probabilityOf(const map::Entity& entity, const RoomGuess* guess) {
+  return entity.confidence * (guess == nullptr ? kStairsLead : guess->spaceProbability);
+}
+
+map::Event eventOf(const map::Prediction& prediction, base::SessionId session, base::Time time) {
+  const bool isOpen = prediction.state == PredictionState::kOpen;
+  return {time, session, isOpen ? "prediction_made" : "prediction_settled", toString(prediction.id),
+          R"({"state":")" + std::string(toString(prediction.state)) + R"("})"};
+}
+
+}  // namespace
+
+void describe(base::ConfigVisitor& visitor, PredictionConfig& config) {
+  visitor.section("bets", "on what lies beyond doors and stairs");
+  visitor.key("enabled", config.enabled, "whether anything is predicted");
+  visitor.key("least_probability", config.leastProbability, "", {0.0, 1.0}, "bets that are less likely are not made");
+  visitor.endSection();
+  describe(visitor, config.extrapolation);
+}
+
+Predictor::Predictor(const PredictionConfig& config, const map::MapView& before) : config_(config) {
+  for (const auto& prediction : before.predictions()) {
+    Bet bet{.prediction = prediction, .node = {}, .edge = {}};
+    if (const auto* node = before.graph().findNode(prediction.node)) bet.node = *node;
+    for (const auto id : before.graph().edges()) {
+      const auto& edge = before.graph().getEdge(id);
+      if (edge.to == prediction.node && edge.cause == prediction.cause) bet.edge = edge;
+    }
+    bets_.push_back(std::move(bet));
+  }
+}
+
+void Predictor::update(const World& world, std::optional<base::SubMapId> seen) {
+  if (!config_.enabled) return;
+  const auto* const around = seen ? findById(world.nodes, *seen) : nullptr;
+  for (auto& bet : bets_) {
+    const auto* const submap = findById(world.nodes, bet.prediction.submap);
+    if (bet.prediction.state != PredictionState::kOpen || submap == nullptr) continue;
+    const bool isGone = findById(world.entities, bet.prediction.cause) == nullptr;
+    if (isGone && submap->session == world.session) {
+      settle(bet, PredictionState::kRefuted, world);
+      continue;
+    }
+    place(bet, *submap);
+  }
+  for (const auto& entity : world.entities) {
+    const auto* const submap = findById(world.nodes, entity.submap);
+    if (!opensSpace(entity) || submap == nullptr) continue;
+    const Eigen::Vector3d spot_in_map = submap->T_map_submap * entity.T_submap_entity.translation();
+    if (around != nullptr && (around->T_map_submap.translation() - spot_in_map).norm() > kReach) continue;
+    const auto known = std::ranges::find(bets_, entity.id, [](const Bet& bet) { return bet.prediction.cause; });
+    if (known == bets_.end()) {
+      bet(world, entity, *submap);
+    } else if (known->prediction.state == PredictionState::kOpen) {
+      follow(world, entity, *submap, *known);
+    }
+  }
+}
+
+/// Told in the frame in which the entity is extrapolated.
+Surroundings Predictor::surroundingsOf(const World& world, const map::Entity& entity, const map::Node& submap) const {
+  const Pose3 T_map_here = submap.T_map_submap * T_submap_here(entity);
+  const Pose3 T_here_map = T_map_here.inverse();
+  Surroundings around(T_map_here, world.gridsNear(T_map_here.translation()));
+  for (const auto& other : world.entities) {
+    const auto* const door = std::get_if<map::Door>(&other.attributes);
+    const auto* const itsSubmap = findById(world.nodes, other.submap);
+    if (door == nullptr || itsSubmap == nullptr || other.id == entity.id) continue;
+    const Pose3 T_here_other = T_here_map * itsSubmap->T_map_submap * other.T_submap_entity;
+    if (std::abs(T_here_other.translation().z()) > Surroundings::kSameFloor ||
+        T_here_other.translation().head<2>().norm() > kReach) {
+      continue;
+    }
+    around.openings.push_back({other.id, geometry::toPose2(T_here_other), door->width, door->hasLeaf});
+  }
+  for (const auto& bet : bets_) {
+    if (bet.prediction.cause == entity.id || bet.prediction.state != PredictionState::kOpen) continue;
+    const Pose3 T_here_node = T_here_map * bet.node.T_map_submap;
+    if (std::abs(T_here_node.translation().z()) > Surroundings::kSameFloor || bet.prediction.room_in_node.empty()) {
+      continue;
+    }
+    around.taken_here.push_back(geometry::transformed(T_here_node, bet.prediction.room_in_node));
+  }
+  return around;
+}
+
+/// What M(S) tells of the entity now. False: it is refused.
+bool Predictor::shape(const map::Entity& entity, const Surroundings& around, map::Prediction& prediction) const {
+  std::optional<RoomGuess> guess;
+  if (const auto* door = std::get_if<map::Door>(&entity.attributes)) guess = guessRoom(around, door->width);
+  const auto beyond = extrapolate(entity, around, guess ? &*guess : nullptr, config_.extrapolation);
+  const auto* const predicted = std::get_if<PredictedSubMap>(&beyond);
+  if (predicted == nullptr) return false;
+  prediction.submap = entity.submap;
+  prediction.probability = probabilityOf(entity, guess ? &*guess : nullptr);
+  prediction.expectedArea = predicted->expectedArea;
+  prediction.T_submap_node = predicted->T_i_j;
+  prediction.areas = predicted->areas;
+  prediction.room_in_node = predicted->room_in_j;
+  return true;
+}
+
+void Predictor::bet(const World& world, const map::Entity& entity, const map::Node& submap) {
+  const auto around = surroundingsOf(world, entity, submap);
+  const auto space = spaceBehind(around, openingWidth(entity));
+  if (space.unseen < std::max(kLeastSpace, kMostlyUnseen * space.seen)) return;
+  if (submapWithin(space, around.T_map_here(), world.nodes)) return;
+  Bet bet;
+  if (!shape(entity, around, bet.prediction) || bet.prediction.probability < config_.leastProbability) return;
+  bet.prediction.id = {bets_.empty() ? 0 : bets_.back().prediction.id.value + 1};
+  bet.prediction.cause = entity.id;
+  bet.prediction.made = world.now;
+  bet.node.id = bet.prediction.node = world.newNodeId();
+  bet.node.kind = map::SubMapKind::kPredicted;
+  bet.node.begin = bet.node.end = world.now;
+  bet.edge.id = world.newEdgeId();
+  bet.edge.kind = std::holds_alternative<map::Door>(entity.attributes) ? map::EdgeKind::kDoor : map::EdgeKind::kStairs;
+  bet.edge.cause = entity.id;
+  bet.edge.information = informationOf(entity);
+  bet.isNews = true;
+  place(bet, submap);
+  events_.push_back(eventOf(bet.prediction, world.session, world.now));
+  bets_.push_back(std::move(bet));
+}
+
+/// Sees whether the bet on the entity is settled; else it is told anew, with all that is known by now.
+void Predictor::follow(const World& world, const map::Entity& entity, const map::Node& submap, Bet& bet) {
+  const auto around = surroundingsOf(world, entity, submap);
+  const auto space = spaceBehind(around, openingWidth(entity));
+  if (const auto within = submapWithin(space, around.T_map_here(), world.nodes)) {
+    return settle(bet, PredictionState::kMerged, world, within);
+  }
+  if (space.seen >= kLeastSpace && space.unseen < space.seen) return settle(bet, PredictionState::kConfirmed, world);
+  if (space.seen + space.unseen < kLeastSpace) return settle(bet, PredictionState::kRefuted, world);
+  if (!shape(entity, around, bet.prediction)) return settle(bet, PredictionState::kRefuted, world);
+  bet.edge.information = informationOf(entity);
+  bet.isNews = true;
+  place(bet, submap);
+}
+
+/// Where the predicted sub-map lies, as its observed one does.
+void Predictor::place(Bet& bet, const map::Node& submap) {
+  auto& node = bet.node;
+  const Pose3& T_submap_node = bet.prediction.T_submap_node;
+  const Pose3 T_map_node = submap.T_map_submap * T_submap_node;
+  bet.isNews |= !isSame(node.T_map_submap, T_map_node);
+  node.session = submap.session;
+  if (bet.edge.kind == map::EdgeKind::kDoor) node.floor = submap.floor;
+  node.T_map_submap = T_map_node;
+  node.T_travel_submap = submap.T_travel_submap * T_submap_node;
+  bet.edge.from = submap.id;
+  bet.edge.to = node.id;
+  bet.edge.T_from_to = T_submap_node;
+}
+
+void Predictor::settle(Bet& bet, PredictionState state, const World& world, std::optional<base::SubMapId> mergedInto) {
+  bet.prediction.state = state;
+  bet.prediction.settled = world.now;
+  bet.prediction.mergedInto = mergedInto;
+  bet.isNews = true;
+  events_.push_back(eventOf(bet.prediction, world.session, world.now));
+}
+
+void Predictor::addTo(map::MapChange& change) {
+  for (auto& bet : bets_) {
+    if (!std::exchange(bet.isNews, false)) continue;
+    change.predictions.push_back(bet.prediction);
+    if (bet.prediction.state == PredictionState::kOpen) {
+      change.nodes.push_back(bet.node);
+      change.edges.push_back(bet.edge);
+    } else {
+      change.removedNodes.push_back(bet.node.id);
+    }
+  }
+  for (auto& event : std::exchange(events_, {})) change.events.push_back(std::move(event));
+}
+
+}  // namespace prodomos::prediction
