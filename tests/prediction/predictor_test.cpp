@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <string>
 
 namespace prodomos::prediction {
 namespace {
@@ -17,16 +18,25 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-/// A corridor along x, 2 m wide and seen, that a robot drives through; a cell is 0.5 m. Above it lies what `rooms`
-/// shows.
+constexpr double kResolution = 0.1;
+
+/// A room that was seen, with walls about it and, in the wall below, a gap of so many cells in its middle.
+std::vector<std::string> roomWithGap(std::size_t columns, std::size_t rows, std::size_t gap) {
+  std::vector<std::string> lines(rows, '#' + std::string(columns - 2, '.') + '#');
+  lines.front() = lines.back() = std::string(columns, '#');
+  lines.back().replace((columns - gap) / 2, gap, gap, '.');
+  return lines;
+}
+
+/// A corridor along x, 2 m wide and 20 m long, that was seen.
 class World {
  public:
   World() {
-    store_.commit({.sessions = {{.id = {1}, .log = "log", .config = ""}}});
-    addSubMap({0.0, 0.0, 0.0}, kCorridor, {-20, -2});
+    store_.commit({.sessions = {{.id = {1}, .log = "log", .config = ""}}, .floors = {{0, 0.0}}});
+    addSubMap({0.0, 0.0, 0.0}, roomWithGap(200, 22, 0), {-100, -11});
   }
 
-  base::SubMapId addSubMap(const geometry::Pose2& pose, const std::vector<std::string_view>& lines,
+  base::SubMapId addSubMap(const geometry::Pose2& pose, const std::vector<std::string>& lines,
                            geometry::CellIndex lowerLeft) {
     map::Node node;
     node.id = {nextNode_++};
@@ -34,8 +44,9 @@ class World {
     node.floor = 0;
     node.T_map_submap = node.T_travel_submap = geometry::toPose3(pose);
     nodes_.push_back(node);
-    grids_.push_back(
-        {node.id, node.T_map_submap, std::make_shared<map::OccupancyGrid>(test::gridFromText(lines, 0.5, lowerLeft))});
+    grids_.push_back({node.id, node.T_map_submap,
+                      std::make_shared<map::OccupancyGrid>(
+                          test::gridFromText({lines.begin(), lines.end()}, kResolution, lowerLeft))});
     store_.commit({.nodes = {node}});
     return node.id;
   }
@@ -99,12 +110,6 @@ class World {
   }
   map::MapView view() const { return store_.view(); }
   const std::vector<PlacedGrid>& grids() const { return grids_; }
-
-  static inline const std::vector<std::string_view> kCorridor = {
-      "########################################", "........................................",
-      "........................................", "........................................",
-      "........................................", "########################################",
-  };
 
  private:
   map::MapStore store_ = map::MapStore::inMemory();
@@ -191,8 +196,7 @@ TEST(Predictor, WinsWhereTheRoomIsSeen) {
   Predictor predictor({}, world.view());
   world.update(predictor, 5.0);
   // The door opens, and the robot looks in.
-  world.addSubMap({0.0, 0.0, 0.0}, {"##########", "#........#", "#........#", "#........#", "#........#", "####..####"},
-                  {-5, 2});
+  world.addSubMap({0.0, 0.0, 0.0}, roomWithGap(41, 32, 9), {-20, 10});
   const auto change = world.update(predictor, 9.0);
   const auto view = world.view();
   ASSERT_THAT(view.predictions(), SizeIs(1));
@@ -209,9 +213,10 @@ TEST(Predictor, HandsOverToTheSubMapThatBeginsThere) {
   world.addDoor(0.0);
   Predictor predictor({}, world.view());
   world.update(predictor, 5.0);
-  const auto room = world.addSubMap({0.0, 2.5, 1.5}, {"..", ".."}, {-1, -1});
+  const auto room = world.addSubMap({0.0, 2.5, 0.0}, roomWithGap(21, 22, 9), {-10, -15});
   world.update(predictor, 9.0);
   const auto view = world.view();
+  ASSERT_THAT(view.predictions(), SizeIs(1));
   EXPECT_EQ(view.predictions()[0].state, PredictionState::kMerged);
   EXPECT_EQ(view.predictions()[0].mergedInto, room);
 }
@@ -221,8 +226,9 @@ TEST(Predictor, LosesWhereThereIsNoRoom) {
   world.addDoor(0.0);
   Predictor predictor({}, world.view());
   world.update(predictor, 5.0);
-  world.addSubMap({0.0, 0.0, 0.0}, {"####", "#  #", "#..#"}, {-2, 2});  // a cupboard
+  world.addSubMap({0.0, 0.0, 0.0}, roomWithGap(13, 9, 9), {-6, 10});  // a cupboard
   world.update(predictor, 9.0);
+  ASSERT_THAT(world.view().predictions(), SizeIs(1));
   EXPECT_EQ(world.view().predictions()[0].state, PredictionState::kRefuted);
 }
 
@@ -234,14 +240,14 @@ TEST(Predictor, LosesWhereTheDoorIsNone) {
   world.remove(door);
   world.update(predictor, 9.0);
   const auto view = world.view();
+  ASSERT_THAT(view.predictions(), SizeIs(1));
   EXPECT_EQ(view.predictions()[0].state, PredictionState::kRefuted);
   EXPECT_THAT(view.graph().nodes(), SizeIs(1));
 }
 
 TEST(Predictor, DoesNotBetOnWhatIsSeenAlready) {
   World world;
-  world.addSubMap({0.0, 0.0, 0.0}, {"##########", "#........#", "#........#", "#........#", "#........#", "####..####"},
-                  {-5, 2});
+  world.addSubMap({0.0, 0.0, 0.0}, roomWithGap(41, 32, 9), {-20, 10});
   world.addDoor(0.0, false);
   Predictor predictor({}, world.view());
   world.update(predictor, 5.0);
@@ -283,7 +289,7 @@ TEST(Predictor, GoesOnFromTheMapAsIfNothingHadHappened) {
   Predictor first({}, world.view());
   world.update(first, 5.0);
   Predictor second({}, world.view());
-  world.addSubMap({0.0, 2.5, 1.5}, {"..", ".."}, {-1, -1});
+  world.addSubMap({0.0, 2.5, 0.0}, roomWithGap(21, 22, 9), {-10, -15});
   EXPECT_THAT(world.update(second, 9.0).removedNodes, SizeIs(1));
   EXPECT_EQ(world.view().predictions()[0].state, PredictionState::kMerged);
 }
