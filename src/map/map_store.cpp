@@ -73,7 +73,8 @@ class ChangeWriter {
   }
 
   void remove(const std::vector<base::SubMapId>& nodes) {
-    auto edges = database_.prepare("DELETE FROM edge WHERE from_node = ?1 OR to_node = ?1");
+    auto edges = database_.prepare(
+        "DELETE FROM edge WHERE ?1 IN (from_node, to_node) AND ?1 IN (SELECT id FROM node WHERE kind = 'predicted')");
     auto row = database_.prepare("DELETE FROM node WHERE id = ? AND kind = 'predicted'");
     for (const auto id : nodes) {
       edges << id;

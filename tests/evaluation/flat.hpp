@@ -92,6 +92,7 @@ class FlatMap {
     entity.submap = {submap};
     entity.T_submap_entity = T_submap_world(submap) * T_world_entity;
     entity.firstSeen = entity.lastSeen = flat::at(seen);
+    entity.confidence = 0.9;
     entity.attributes = std::move(attributes);
     change_.entities.push_back(entity);
     return entity.id;

@@ -98,7 +98,7 @@ TEST_F(MapQueries, GiveWhatCanBeReachedWithoutAClosedDoor) {
 TEST_F(MapQueries, KnowTheFileByItsNumbers) {
   const test::PlainSqlite file(path_);
   EXPECT_EQ(file.value("PRAGMA application_id"), std::to_string(0x7072646D));
-  EXPECT_EQ(file.value("PRAGMA user_version"), "2");
+  EXPECT_EQ(file.value("PRAGMA user_version"), "3");
   EXPECT_EQ(file.value("PRAGMA integrity_check"), "ok");
 }
 

@@ -469,6 +469,7 @@ TEST_F(MapFile, KeepsWhatAPredictionBetsOn) {
   Prediction bet;
   bet.id = {1};
   bet.cause = {1};
+  bet.submap = {1};
   bet.node = {2};
   change.predictions = {bet};
   store.commit(change);
@@ -479,6 +480,23 @@ TEST_F(MapFile, KeepsWhatAPredictionBetsOn) {
   ASSERT_EQ(view.entities().size(), 1U);
   EXPECT_EQ(view.entities()[0].confidence, 0.0);
   EXPECT_EQ(view.predictions().size(), 1U);
+}
+
+TEST_F(MapFile, TakesPredictedNodesAwayAndKeepsObservedOnes) {
+  auto store = MapStore::create(path_);
+  auto change = twoNodes();
+  change.nodes.push_back(nodeOf(7));
+  change.nodes.back().kind = SubMapKind::kPredicted;
+  change.edges.push_back(edgeOf(9, 1, 7, EdgeKind::kDoor));
+  store.commit(change);
+  MapChange later;
+  later.removedNodes = {{7}, {2}};
+  store.commit(later);
+  const auto view = store.view();
+  EXPECT_FALSE(view.graph().hasNode({7}));
+  EXPECT_FALSE(view.graph().hasEdge({9}));
+  EXPECT_TRUE(view.graph().hasNode({2}));
+  EXPECT_TRUE(view.graph().hasEdge({1}));
 }
 
 TEST_F(MapFile, IsTheSameInMemory) {
@@ -858,16 +876,16 @@ TEST_F(MapFile, OfTheFirstSchemaIsReadAndGrown) {
   EXPECT_TRUE(store.view().trajectory()[1].T_map_body.translation().isApprox(
       written[1].T_map_body.translation() + Eigen::Vector3d(1, 2, 3), 1e-9));
   store.close();
-  EXPECT_EQ(PlainSqlite(path_).value("PRAGMA user_version"), "2");
+  EXPECT_EQ(PlainSqlite(path_).value("PRAGMA user_version"), "3");
   EXPECT_EQ(PlainSqlite(path_).value("PRAGMA integrity_check"), "ok");
 }
 
 TEST_F(MapFile, OfANewerSchemaIsRefused) {
   write(twoNodes());
-  PlainSqlite(path_).query("PRAGMA user_version = 3");
+  PlainSqlite(path_).query("PRAGMA user_version = 4");
   for (const auto& message :
        {messageOf([&] { MapView::open(path_); }), messageOf([&] { MapStore::openForWriting(path_); })}) {
-    EXPECT_THAT(message, HasSubstr("expected a map of schema version 2 or older, found version 3"));
+    EXPECT_THAT(message, HasSubstr("expected a map of schema version 3 or older, found version 4"));
   }
 }
 
