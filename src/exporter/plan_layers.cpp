@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the prodomos authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "prodomos/geometry/polygon.hpp"
+
 #include "exporter/contents.hpp"
 #include "exporter/palette.hpp"
 #include "exporter/plan.hpp"
@@ -79,18 +81,24 @@ Group drawGrids(const PlanContents& plan) {
 
 Group drawPredictedAreas(const PlanContents& plan) {
   Group group{"predicted-areas"};
+  const auto addOutline = [&](const map::Prediction& prediction, const geometry::Polygon& outline_in_node, Line line) {
+    const auto& placed = plan.getNode(prediction.node);
+    for (const auto& corner : geometry::transformed(placed.node.T_map_submap, outline_in_node)) {
+      line.points.push_back(placed.panel->toPage(corner));
+    }
+    if (line.points.size() > 2) group.shapes.emplace_back(std::move(line));
+  };
   for (const auto& prediction : plan.view.predictions()) {
     if (prediction.state != map::PredictionState::kOpen) continue;  // of the others, one has seen what is there
-    const auto& placed = plan.getNode(prediction.node);
+    addOutline(prediction, prediction.room_in_node,
+               {.closed = true,
+                .style = filledAndStroked(withAlpha(kPredictedColor, 0.06), kPredictedColor, 0.9, {1.5, 2.5}),
+                .tip = nameOf(prediction) + ", likely room of " + brief(std::round(prediction.expectedArea)) + " m²"});
     for (const auto& area : prediction.areas) {
-      Line outline{.closed = true,
-                   .style = filledAndStroked(withAlpha(kPredictedColor, 0.13), kPredictedColor, 1.1, {5.0, 3.0}),
-                   .tip = nameOf(prediction) + ", threshold " + brief(area.threshold)};
-      for (const auto& corner : area.outline_in_node) {
-        const Eigen::Vector3d point = placed.node.T_map_submap * Eigen::Vector3d(corner.x(), corner.y(), 0.0);
-        outline.points.push_back(placed.panel->toPage(point));
-      }
-      if (outline.points.size() > 2) group.shapes.emplace_back(std::move(outline));
+      addOutline(prediction, area.outline_in_node,
+                 {.closed = true,
+                  .style = filledAndStroked(withAlpha(kPredictedColor, 0.13), kPredictedColor, 1.1, {5.0, 3.0}),
+                  .tip = nameOf(prediction) + ", threshold " + brief(area.threshold)});
     }
   }
   return group;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <streambuf>
 
 namespace prodomos::io {
 
@@ -14,6 +15,18 @@ namespace {
 // MRPT counts 100 ns from 1601-01-01.
 constexpr std::int64_t kEpoch = 116'444'736'000'000'000;
 constexpr std::int64_t kNanosecondsPerTick = 100;
+
+/// Takes all that is written, and forgets it. Others may write while MRPT is silenced, so there must be something.
+class Nowhere final : public std::streambuf {
+ protected:
+  std::streamsize xsputn(const char*, std::streamsize count) override { return count; }
+  int_type overflow(int_type character) override { return traits_type::not_eof(character); }
+};
+
+std::streambuf* nowhere() {
+  static Nowhere buffer;
+  return &buffer;
+}
 
 std::mutex& processSettings() {
   static std::mutex mutex;
@@ -78,7 +91,7 @@ mrpt::img::TCamera toMrpt(const sensors::CameraIntrinsics& camera, int width, in
 }
 
 MrptScope::MrptScope(const std::optional<std::filesystem::path>& externals)
-    : lock_(processSettings()), errors_(std::cerr.rdbuf(nullptr)) {
+    : lock_(processSettings()), errors_(std::cerr.rdbuf(nowhere())) {
   if (!externals) return;
   externalsBefore_ = mrpt::io::getLazyLoadPathBase();
   mrpt::io::setLazyLoadPathBase(externals->string());

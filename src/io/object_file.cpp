@@ -4,8 +4,6 @@
 
 #include "prodomos/base/error.hpp"
 
-#include "io/mrpt_values.hpp"
-
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
@@ -36,7 +34,10 @@ std::size_t ObjectFile::Archive::write(const void* source, std::size_t size) {
   constexpr std::size_t kBlock = std::size_t{1} << 30;  // gzwrite() counts in 32 bits
   for (std::size_t done = 0; done < size;) {
     const int written = gzwrite(file, bytes + done, static_cast<unsigned>(std::min(size - done, kBlock)));
-    if (written <= 0) return done;
+    if (written <= 0) {
+      hasFailed = true;
+      break;
+    }
     done += static_cast<std::size_t>(written);
   }
   return size;
@@ -44,12 +45,8 @@ std::size_t ObjectFile::Archive::write(const void* source, std::size_t size) {
 
 void ObjectFile::write(const mrpt::serialization::CSerializable& object) {
   errno = 0;
-  try {
-    const MrptScope quiet;
-    archive_.WriteObject(object);
-  } catch (const std::exception&) {
-    fail();
-  }
+  archive_.WriteObject(object);
+  if (archive_.hasFailed) fail();
 }
 
 void ObjectFile::close() {

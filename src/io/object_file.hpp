@@ -27,6 +27,7 @@ class ObjectFile {
     std::size_t write(const void* source, std::size_t size) override;
 
     gzFile file = nullptr;
+    bool hasFailed = false;  ///< not told to MRPT, which would write of it to std::cerr before it throws
   };
 
   [[noreturn]] void fail() const;

@@ -56,6 +56,12 @@ TEST_F(RoomShapes, AreThoseOfTheLeastThreshold) {
   EXPECT_NEAR(*score().all(), 1.0, 1e-6);
 }
 
+TEST_F(RoomShapes, AreThoseOfTheLikelyRoomWhereOneIsTold) {
+  predict(rectangle(1, 3, 2, 4));
+  claims.spaces[0].room_in_world = rectangle(0, 2.2, 4, 6.2);
+  EXPECT_NEAR(*score().all(), 1.0, 1e-6);
+}
+
 TEST_F(RoomShapes, StandBesideTrivialPredictors) {
   predict(rectangle(0, 2.2, 4, 6.2));
   const auto all = score();

@@ -10,7 +10,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <future>
+#include <iostream>
 #include <limits>
 
 namespace prodomos::io {
@@ -236,6 +239,21 @@ TEST(RawlogSink, SaysThatTheDiskIsFull) {
                 sink->close();
               }),
               HasSubstr("/dev/full: expected a file that can be written, found No space left"));
+}
+
+/// A simulation writes its log in one thread, and its progress in another.
+TEST(RawlogSink, LeavesStandardErrorAlone) {
+  const test::TemporaryFolder folder;
+  auto* const before = std::cerr.rdbuf();
+  auto writing = std::async(std::launch::async, [&folder] {
+    const auto sink = createRawlog(folder.path() / "log.rawlog");
+    for (int i = 0; i < 300; ++i) sink->write({at(i), "a", fan({1.0F, 2.0F})});
+    sink->close();
+  });
+  while (writing.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    ASSERT_EQ(std::cerr.rdbuf(), before);
+  }
+  writing.get();
 }
 
 }  // namespace

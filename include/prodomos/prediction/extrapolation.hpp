@@ -19,10 +19,10 @@ namespace prodomos::prediction {
 
 struct ExtrapolationConfig {
   double doorDistance = 0.5;       ///< metres, d: from a leaf to the origin of the sub-map behind it
-  double doorSigma = 2.2;          ///< metres, of eq. (4)
+  double doorSigma = 3.0;          ///< metres, of eq. (4)
   double doorSkew = 1.0;           ///< per metre of a door's width, c of α = c·w·ô
   double wall = 0.3;               ///< metres from a leaf, and from one side of a wall, to the other side of it
-  double leastProbability = 0.95;  ///< of a cell to be floor of the room behind
+  double leastProbability = 0.9;  ///< of a cell to be floor of the room behind
   double stairsSigma = 0.5;        ///< of eq. (2), in widths of the steps
   double personSigma = 0.35;       ///< metres, of eq. (5)
   double personSkew = 1.0;         ///< |α| of eq. (5), away from the dominant side
