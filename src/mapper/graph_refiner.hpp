@@ -13,8 +13,8 @@
 
 namespace prodomos::mapper {
 
-/// Holds the graph of all observed sub-maps, of all sessions, and keeps its poses the best: looks for loops of each sub-map that
-/// is finished, and refines all poses when one is found.
+/// Holds the graph of all observed sub-maps, of all sessions, and keeps its poses the best: looks for loops of each
+/// sub-map that is finished, and refines all poses when one is found.
 class GraphRefiner {
  public:
   /// Knows what the store holds.

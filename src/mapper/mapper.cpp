@@ -127,7 +127,7 @@ class Mapper::Impl {
   GraphRefiner refiner_;
   Surroundings surroundings_;
   std::unique_ptr<perception::Perception> perception_;
-  prediction::Predictor predictor_;  // its past stands in the map
+  prediction::Predictor predictor_;       // its past stands in the map
   std::optional<RunningSubMap> running_;  // none until the first reading is placed
   double clearance_ = 0.0;                // height of the body above the floor
   geometry::Pose3 T_travel_lastBody_ = geometry::Pose3::Identity();

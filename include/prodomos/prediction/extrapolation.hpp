@@ -18,18 +18,18 @@
 namespace prodomos::prediction {
 
 struct ExtrapolationConfig {
-  double doorDistance = 0.5;       ///< metres, d: from a leaf to the origin of the sub-map behind it
-  double doorSigma = 3.0;          ///< metres, of eq. (4)
-  double doorSkew = 1.0;           ///< per metre of a door's width, c of α = c·w·ô
-  double wall = 0.3;               ///< metres from a leaf, and from one side of a wall, to the other side of it
+  double doorDistance = 0.5;      ///< metres, d: from a leaf to the origin of the sub-map behind it
+  double doorSigma = 3.0;         ///< metres, of eq. (4)
+  double doorSkew = 1.0;          ///< per metre of a door's width, c of α = c·w·ô
+  double wall = 0.3;              ///< metres from a leaf, and from one side of a wall, to the other side of it
   double leastProbability = 0.9;  ///< of a cell to be floor of the room behind
-  double stairsSigma = 0.5;        ///< of eq. (2), in widths of the steps
-  double personSigma = 0.35;       ///< metres, of eq. (5)
-  double personSkew = 1.0;         ///< |α| of eq. (5), away from the dominant side
-  double horizon = 1.5;            ///< seconds that a walk is extrapolated by
-  double leastSpeed = 0.3;         ///< m/s; who is slower stands
-  double leastArea = 0.1;          ///< m²; what is less is not worth telling
-  double range = 30.0;             ///< metres from its sub-map's origin that an entity may lie where nothing is known
+  double stairsSigma = 0.5;       ///< of eq. (2), in widths of the steps
+  double personSigma = 0.35;      ///< metres, of eq. (5)
+  double personSkew = 1.0;        ///< |α| of eq. (5), away from the dominant side
+  double horizon = 1.5;           ///< seconds that a walk is extrapolated by
+  double leastSpeed = 0.3;        ///< m/s; who is slower stands
+  double leastArea = 0.1;         ///< m²; what is less is not worth telling
+  double range = 30.0;            ///< metres from its sub-map's origin that an entity may lie where nothing is known
 };
 
 void describe(base::ConfigVisitor& visitor, ExtrapolationConfig& config);
