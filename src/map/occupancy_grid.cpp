@@ -250,23 +250,23 @@ geometry::CellBox OccupancyGrid::boxOf(const OccupancyGrid& other, const geometr
   return box;
 }
 
-void OccupancyGrid::mergeWithin(const geometry::CellBox& limits, const OccupancyGrid& source,
-                                const geometry::Pose3& T_this_source) {
-  auto target = boxOf(source, T_this_source);
+void OccupancyGrid::mergeWithin(const geometry::CellBox& limits, const OccupancyGrid& other,
+                                const geometry::Pose3& T_this_other) {
+  auto target = boxOf(other, T_this_other);
   target.first = {std::max(target.first.x, limits.first.x), std::max(target.first.y, limits.first.y)};
   target.last = {std::min(target.last.x, limits.last.x), std::min(target.last.y, limits.last.y)};
   if (target.empty()) return;
   grow(target);
-  const geometry::Pose2 T_source_this = inverse(geometry::toPose2(T_this_source));
-  const double c = std::cos(T_source_this.theta);
-  const double s = std::sin(T_source_this.theta);
+  const geometry::Pose2 T_other_this = inverse(geometry::toPose2(T_this_other));
+  const double c = std::cos(T_other_this.theta);
+  const double s = std::sin(T_other_this.theta);
   for (int y = target.first.y; y <= target.last.y; ++y) {
     auto* cells = row(y) - box_.first.x;
     const double centreY = geometry::cellCentre(y, config_.resolution);
     for (int x = target.first.x; x <= target.last.x; ++x) {
       const double centreX = geometry::cellCentre(x, config_.resolution);
-      const Cell seen = source.cell(geometry::cellAt(T_source_this.x + c * centreX - s * centreY,
-                                                     T_source_this.y + s * centreX + c * centreY, source.resolution()));
+      const Cell seen = other.cell(geometry::cellAt(T_other_this.x + c * centreX - s * centreY,
+                                                    T_other_this.y + s * centreX + c * centreY, other.resolution()));
       if (seen == kUnknownCell) continue;
       const int before = cells[x] == kUnknownCell ? 0 : cells[x];
       cells[x] = static_cast<Cell>(std::clamp<int>(before + seen, low_, high_));

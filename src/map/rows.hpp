@@ -63,7 +63,7 @@ sensors::ClassTable classTableFrom(const std::string& json);
 std::string toJson(const std::vector<PredictedArea>& areas);
 std::string toJson(const std::vector<Eigen::Vector2d>& outline);
 std::vector<Eigen::Vector2d> outlineFrom(const std::string& text);
-std::vector<PredictedArea> predictedAreasFrom(const std::string& json);
+std::vector<PredictedArea> predictedAreasFrom(const std::string& text);
 
 /// Null where the sub-map has no such layer or the type is unknown to this version. Throws base::FileError where its
 /// bytes are damaged (checksum) or of a newer version.

@@ -23,10 +23,8 @@ constexpr double kReach = 15.0;        // metres from a sub-map's origin to what
 constexpr double kLeastSpace = 2.0;    // m²; what is smaller is no room
 constexpr double kMostlyUnseen = 1.5;  // m² not seen for one that was: less, and the room is known
 constexpr double kLeastMove = 1e-3;    // metres, radians; what moves less need not be told
-// Of doors and doorways that were told with a mean confidence of 0.83, 0.97 were there (docs/prediction.md).
-constexpr double kDoubt = 0.2;
-constexpr double kStairsLead = 0.97;  // that a true flight leads somewhere
-constexpr double kPlacedAt = 0.1;     // metres, radians: how well a door's sub-map is known to lie behind it
+constexpr double kStairsLead = 0.97;   // that a true flight leads somewhere
+constexpr double kPlacedAt = 0.1;      // metres, radians: how well a door's sub-map is known to lie behind it
 
 bool opensSpace(const map::Entity& entity) {
   return std::holds_alternative<map::Door>(entity.attributes) ||
@@ -67,8 +65,7 @@ std::optional<base::SubMapId> submapWithin(const SpaceBehind& space, const Pose3
 
 /// How likely it is that there is a space of 2 m² which nobody has seen.
 double probabilityOf(const map::Entity& entity, const RoomGuess* guess) {
-  const double exists = 1.0 - kDoubt * (1.0 - entity.confidence);
-  return exists * (guess == nullptr ? kStairsLead : guess->spaceProbability);
+  return entity.confidence * (guess == nullptr ? kStairsLead : guess->spaceProbability);
 }
 
 map::Event eventOf(const map::Prediction& prediction, base::SessionId session, base::Time time) {
@@ -90,10 +87,9 @@ void describe(base::ConfigVisitor& visitor, PredictionConfig& config) {
 Predictor::Predictor(const PredictionConfig& config, const map::MapView& before) : config_(config) {
   for (const auto& prediction : before.predictions()) {
     Bet bet{.prediction = prediction, .node = {}, .edge = {}};
-    if (const auto* node = before.graph().findNode(prediction.node)) bet.node = *node;
-    for (const auto id : before.graph().edges()) {
-      const auto& edge = before.graph().getEdge(id);
-      if (edge.to == prediction.node && edge.cause == prediction.cause) bet.edge = edge;
+    if (const auto* node = before.graph().findNode(prediction.node)) {
+      bet.node = *node;
+      bet.edge = before.graph().getEdge(before.graph().edgesOf(node->id).at(0));
     }
     bets_.push_back(std::move(bet));
   }
@@ -101,27 +97,33 @@ Predictor::Predictor(const PredictionConfig& config, const map::MapView& before)
 
 void Predictor::update(const World& world, std::optional<base::SubMapId> seen) {
   if (!config_.enabled) return;
-  const auto* const around = seen ? findById(world.nodes, *seen) : nullptr;
+  review(world);
+  const auto* const news = seen ? findById(world.nodes, *seen) : nullptr;
+  for (const auto& entity : world.entities) {
+    const auto* const submap = findById(world.nodes, entity.submap);
+    if (!opensSpace(entity) || submap == nullptr) continue;
+    const Eigen::Vector3d spot_in_map = submap->T_map_submap * entity.T_submap_entity.translation();
+    if (news != nullptr && (news->T_map_submap.translation() - spot_in_map).norm() > kReach) continue;
+    const auto known = std::ranges::find(bets_, entity.id, [](const Bet& bet) { return bet.prediction.cause; });
+    if (known == bets_.end()) {
+      bet(world, entity, *submap);
+    } else if (known->prediction.state == PredictionState::kOpen) {
+      follow(world, entity, *submap, *known);
+    }
+  }
+}
+
+/// Predicted sub-maps follow those that their doors were seen from; a bet on what is believed no more is lost. Entities
+/// of earlier sessions are not among those that are believed, and stay.
+void Predictor::review(const World& world) {
   for (auto& bet : bets_) {
     const auto* const submap = findById(world.nodes, bet.prediction.submap);
     if (bet.prediction.state != PredictionState::kOpen || submap == nullptr) continue;
     const bool isGone = findById(world.entities, bet.prediction.cause) == nullptr;
     if (isGone && submap->session == world.session) {
       settle(bet, PredictionState::kRefuted, world);
-      continue;
-    }
-    place(bet, *submap);
-  }
-  for (const auto& entity : world.entities) {
-    const auto* const submap = findById(world.nodes, entity.submap);
-    if (!opensSpace(entity) || submap == nullptr) continue;
-    const Eigen::Vector3d spot_in_map = submap->T_map_submap * entity.T_submap_entity.translation();
-    if (around != nullptr && (around->T_map_submap.translation() - spot_in_map).norm() > kReach) continue;
-    const auto known = std::ranges::find(bets_, entity.id, [](const Bet& bet) { return bet.prediction.cause; });
-    if (known == bets_.end()) {
-      bet(world, entity, *submap);
-    } else if (known->prediction.state == PredictionState::kOpen) {
-      follow(world, entity, *submap, *known);
+    } else {
+      place(bet, *submap);
     }
   }
 }
@@ -153,20 +155,20 @@ Surroundings Predictor::surroundingsOf(const World& world, const map::Entity& en
   return around;
 }
 
-/// What M(S) tells of the entity now. False: it is refused.
-bool Predictor::shape(const map::Entity& entity, const Surroundings& around, map::Prediction& prediction) const {
+/// Tells what M(S) makes of the entity now, and how likely it is; none where it is refused.
+std::optional<double> Predictor::shape(const map::Entity& entity, const Surroundings& around,
+                                       map::Prediction& prediction) const {
   std::optional<RoomGuess> guess;
   if (const auto* door = std::get_if<map::Door>(&entity.attributes)) guess = guessRoom(around, door->width);
   const auto beyond = extrapolate(entity, around, guess ? &*guess : nullptr, config_.extrapolation);
   const auto* const predicted = std::get_if<PredictedSubMap>(&beyond);
-  if (predicted == nullptr) return false;
+  if (predicted == nullptr) return std::nullopt;
   prediction.submap = entity.submap;
-  prediction.probability = probabilityOf(entity, guess ? &*guess : nullptr);
   prediction.expectedArea = predicted->expectedArea;
   prediction.T_submap_node = predicted->T_i_j;
   prediction.areas = predicted->areas;
   prediction.room_in_node = predicted->room_in_j;
-  return true;
+  return probabilityOf(entity, guess ? &*guess : nullptr);
 }
 
 void Predictor::bet(const World& world, const map::Entity& entity, const map::Node& submap) {
@@ -175,7 +177,9 @@ void Predictor::bet(const World& world, const map::Entity& entity, const map::No
   if (space.unseen < std::max(kLeastSpace, kMostlyUnseen * space.seen)) return;
   if (submapWithin(space, around.T_map_here(), world.nodes)) return;
   Bet bet;
-  if (!shape(entity, around, bet.prediction) || bet.prediction.probability < config_.leastProbability) return;
+  const auto probability = shape(entity, around, bet.prediction);
+  if (!probability || *probability < config_.leastProbability) return;
+  bet.prediction.probability = *probability;
   bet.prediction.id = {bets_.empty() ? 0 : bets_.back().prediction.id.value + 1};
   bet.prediction.cause = entity.id;
   bet.prediction.made = world.now;
@@ -192,7 +196,8 @@ void Predictor::bet(const World& world, const map::Entity& entity, const map::No
   bets_.push_back(std::move(bet));
 }
 
-/// Sees whether the bet on the entity is settled; else it is told anew, with all that is known by now.
+/// Sees whether the bet on the entity is settled; else it is told anew, with all that is known by now. Its odds stay
+/// those at which it was made: what is seen of the room does not make it less likely that there was one.
 void Predictor::follow(const World& world, const map::Entity& entity, const map::Node& submap, Bet& bet) {
   const auto around = surroundingsOf(world, entity, submap);
   const auto space = spaceBehind(around, openingWidth(entity));

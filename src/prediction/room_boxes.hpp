@@ -40,7 +40,9 @@ class UnknownArea {
  private:
   static constexpr int kAhead = Surroundings::kBox.last.x + 1;
   static constexpr int kAcross = Surroundings::kBox.last.y - Surroundings::kBox.first.y + 1;
-  static std::size_t index(int x, int y) { return static_cast<std::size_t>(x * (kAcross + 1) + y); }
+  static std::size_t index(int x, int y) {
+    return static_cast<std::size_t>(x) * (kAcross + 1) + static_cast<std::size_t>(y);
+  }
 
   std::vector<std::int32_t> below_;  // cells before x, to the right of y
 };

@@ -46,8 +46,8 @@ class Evidence {
 
  private:
   static constexpr geometry::CellBox quarterBox() {
-    constexpr auto box = Surroundings::kBox;
-    return {{2 * box.first.x, 2 * box.first.y}, {2 * box.last.x + 1, 2 * box.last.y + 1}};
+    const auto& [first, last] = Surroundings::kBox;
+    return {{2 * first.x, 2 * first.y}, {2 * last.x + 1, 2 * last.y + 1}};
   }
 
   geometry::CellMap<std::int32_t> quarters_;

@@ -46,10 +46,11 @@ class Predictor {
     bool isNews = false;
   };
 
+  void review(const World& world);
   void bet(const World& world, const map::Entity& entity, const map::Node& submap);
   void follow(const World& world, const map::Entity& entity, const map::Node& submap, Bet& bet);
   void settle(Bet& bet, map::PredictionState state, const World& world, std::optional<base::SubMapId> mergedInto = {});
-  bool shape(const map::Entity& entity, const Surroundings& around, map::Prediction& prediction) const;
+  std::optional<double> shape(const map::Entity& entity, const Surroundings& around, map::Prediction& prediction) const;
   void place(Bet& bet, const map::Node& submap);
   Surroundings surroundingsOf(const World& world, const map::Entity& entity, const map::Node& submap) const;
 
