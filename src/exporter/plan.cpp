@@ -47,11 +47,13 @@ Eigen::AlignedBox2d extentOf(const map::MapView& view, const std::vector<map::Tr
   for (const auto& prediction : view.predictions()) {
     const auto* const node = graph.findNode(prediction.node);
     if (node == nullptr || !onFloor(node->floor, panel.floor)) continue;
-    for (const auto& area : prediction.areas) {
-      for (const auto& corner : area.outline_in_node) {
+    const auto extendAll = [&](const std::vector<Eigen::Vector2d>& outline_in_node) {
+      for (const auto& corner : outline_in_node) {
         extendTo(node->T_map_submap * Eigen::Vector3d(corner.x(), corner.y(), 0.0));
       }
-    }
+    };
+    extendAll(prediction.room_in_node);
+    for (const auto& area : prediction.areas) extendAll(area.outline_in_node);
   }
   if (extent.isEmpty()) extent.extend(Eigen::Vector2d::Zero());
   return {extent.min().array() - kRim, extent.max().array() + kRim};
