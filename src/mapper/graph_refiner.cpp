@@ -130,7 +130,7 @@ const geometry::Pose3& GraphRefiner::T_map_submap(base::SubMapId id) const {
 std::vector<base::SubMapId> GraphRefiner::nodesOf(base::SessionId session) const {
   std::vector<base::SubMapId> ids;
   for (const auto& [node, T_map_told, isTold] : vertices_) {
-    if (node.session == session && node.kind == map::SubMapKind::kObserved) ids.push_back(node.id);
+    if (node.session == session) ids.push_back(node.id);
   }
   return ids;
 }

@@ -127,9 +127,9 @@ class Mapper::Impl {
   GraphRefiner refiner_;
   Surroundings surroundings_;
   std::unique_ptr<perception::Perception> perception_;
-  prediction::Predictor predictor_;       // its past stands in the map
-  std::optional<RunningSubMap> running_;  // none until the first reading is placed
-  double clearance_ = 0.0;                // height of the body above the floor
+  std::optional<prediction::Predictor> predictor_;  // its past stands in the map
+  std::optional<RunningSubMap> running_;            // none until the first reading is placed
+  double clearance_ = 0.0;                          // height of the body above the floor
   geometry::Pose3 T_travel_lastBody_ = geometry::Pose3::Identity();
 };
 
@@ -141,9 +141,9 @@ Mapper::Impl::Impl(map::MapStore& store, const MapperConfig& config, const senso
       localizer_(config, log),
       floors_(config.floor.leastHeight),
       refiner_(loopsOf(config, localizer_), store),
-      surroundings_(store, refiner_),
-      predictor_(config.prediction, store.view()) {
+      surroundings_(store, refiner_) {
   const auto before = store.view();
+  predictor_.emplace(config.prediction, before);
   const auto& sessions = before.sessions();
   if (sessions.empty()) {
     beginSession(log, base::SessionId{0}, before);
@@ -329,7 +329,7 @@ void Mapper::Impl::passOn(map::EdgeKind kind, const geometry::Pose3& T_travel_bo
   change.floors = floors_.floors();
   finished->addTo(change);
   perception_->addTo(change);
-  predictor_.addTo(change);
+  predictor_->addTo(change);
   refiner_.addTo(change, node.id, false);
   change.checkpoint = checkpoint();
   commit(std::move(change));
@@ -364,14 +364,14 @@ void Mapper::Impl::predict(std::optional<base::SubMapId> finished) {
   const auto timing = times.measure("predict");
   const auto entities = perception_->entities();
   const auto nodes = refiner_.nodes();
-  predictor_.update({.now = session_.end,
-                     .session = session_.id,
-                     .entities = entities,
-                     .nodes = nodes,
-                     .gridsNear = [&](const auto& spot) { return surroundings_.gridsNear(spot, running_->submap()); },
-                     .newNodeId = [&] { return refiner_.newNodeId(); },
-                     .newEdgeId = [&] { return refiner_.newEdgeId(); }},
-                    finished);
+  predictor_->update({.now = session_.end,
+                      .session = session_.id,
+                      .entities = entities,
+                      .nodes = nodes,
+                      .gridsNear = [&](const auto& spot) { return surroundings_.gridsNear(spot, running_->submap()); },
+                      .newNodeId = [&] { return refiner_.newNodeId(); },
+                      .newEdgeId = [&] { return refiner_.newEdgeId(); }},
+                     finished);
 }
 
 map::Node Mapper::Impl::nodeBelow(const geometry::Pose3& T_travel_body, base::Time time) {
@@ -430,7 +430,7 @@ void Mapper::Impl::finish(const sensors::EndOfLog& end) {
   const auto last = std::exchange(running_, std::nullopt);
   if (last) last->addTo(change);
   perception_->addTo(change);
-  predictor_.addTo(change);
+  predictor_->addTo(change);
   refiner_.addTo(change, base::SubMapId{-1}, true);
   session_.state = map::SessionState::kComplete;
   change.events.push_back({session_.end, session_.id, "session_finished", toString(session_.id), "{}"});

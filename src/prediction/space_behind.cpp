@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prediction/space_behind.hpp"
 
-#include <array>
+#include "prediction/outline.hpp"
+
 #include <cmath>
-#include <vector>
+#include <cstdlib>
 
 namespace prodomos::prediction {
 
@@ -19,30 +20,23 @@ constexpr int kDeepestWall = 5;                         // cells; where a jamb o
 }  // namespace
 
 SpaceBehind spaceBehind(const Surroundings& around, double width) {
-  SpaceBehind space{.cells = {kNear, 0}};
-  geometry::CellMap<std::uint8_t> taken(kNear, 0);
-  for (const auto& room : around.taken_here) taken.fill(room, 1, kCell);
-  std::vector<CellIndex> open;
-  const auto enter = [&](CellIndex cell) {
-    auto* const isIn = space.cells.find(cell);
-    if (isIn == nullptr || *isIn != 0 || taken.at(cell) != 0) return;
-    const auto state = around.state(cell);
-    if (state == map::CellState::kOccupied) return;
-    *isIn = 1;
-    (state == map::CellState::kFree ? space.seen : space.unseen) += kCell * kCell;
-    open.push_back(cell);
-  };
   const int half = static_cast<int>(std::floor(width / 2.0 / kCell));
-  for (int x = kNear.first.x; x <= kDeepestWall; ++x) {
-    for (int y = -half; y < half; ++y) enter({x, y});
-  }
-  while (!open.empty()) {
-    const CellIndex at = open.back();
-    open.pop_back();
-    for (const CellIndex next :
-         {CellIndex{at.x + 1, at.y}, CellIndex{at.x - 1, at.y}, CellIndex{at.x, at.y + 1}, CellIndex{at.x, at.y - 1}}) {
+  CellSet open(kNear, 1);
+  for (const auto& room : around.taken_here) open.fill(room, 0, kCell);
+  for (int y = kNear.first.y; y <= kNear.last.y; ++y) {
+    for (int x = kNear.first.x; x <= kNear.last.x; ++x) {
       // Beside the opening lies its wall, whether it was seen or not.
-      if (next.x > kDeepestWall / 2 || std::abs(next.y) <= half) enter(next);
+      const bool isBeside = x <= kDeepestWall / 2 && std::abs(y) > half;
+      if (isBeside || around.state(CellIndex{x, y}) == map::CellState::kOccupied) *open.find({x, y}) = 0;
+    }
+  }
+  SpaceBehind space{.cells = {kNear, 0}};
+  for (int x = kNear.first.x; x <= kDeepestWall; ++x) {
+    for (int y = -half; y < half; ++y) {
+      for (const auto cell : takePiece(open, {x, y})) {
+        *space.cells.find(cell) = 1;
+        (around.state(cell) == map::CellState::kFree ? space.seen : space.unseen) += kCell * kCell;
+      }
     }
   }
   return space;
