@@ -26,22 +26,10 @@ bool isGivenUp(const map::Entity& entity) {
   return entity.confidence <= 0.0;
 }
 
-/// Metres that the flight covers on the ground; none where neither steps nor points tell.
-std::optional<double> runOf(const map::Entity& entity, const map::Staircase& stairs) {
-  if (stairs.stepHeight > 0.0 && stairs.stepDepth > 0.0 && std::isfinite(stairs.height)) {
-    return std::abs(stairs.height) * stairs.stepDepth / stairs.stepHeight;
-  }
-  if (entity.points_in_submap.empty()) return std::nullopt;
-  const Eigen::Vector3f uphill = entity.T_submap_entity.linear().col(0).cast<float>();
-  const auto [least, most] =
-      std::ranges::minmax(entity.points_in_submap, {}, [&uphill](const auto& point) { return uphill.dot(point); });
-  return uphill.dot(most - least);
-}
-
 ClaimedStaircase claimedStairs(const map::Entity& entity, const map::Staircase& stairs,
                                const geometry::Pose3& T_world_submap, int storey) {
   ClaimedStaircase claim{entity.id, storey, geometry::toPose2(T_world_submap * entity.T_submap_entity), stairs, {}};
-  if (const auto run = runOf(entity, stairs)) {
+  if (const auto run = map::runOf(entity)) {
     const auto foot = claim.T_world_stairs * geometry::Pose2{-*run / 2.0, 0.0, 0.0};
     claim.foot = Eigen::Vector2d(foot.x, foot.y);
   }

@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace prodomos::map {
@@ -56,6 +58,19 @@ PlanePatch planePatchFrom(const json& in) {
 }
 
 }  // namespace
+
+std::optional<double> runOf(const Entity& entity) {
+  const auto* stairs = std::get_if<Staircase>(&entity.attributes);
+  if (stairs == nullptr) return std::nullopt;
+  if (stairs->stepHeight > 0.0 && stairs->stepDepth > 0.0 && std::isfinite(stairs->height)) {
+    return std::abs(stairs->height) * stairs->stepDepth / stairs->stepHeight;
+  }
+  if (entity.points_in_submap.empty()) return std::nullopt;
+  const Eigen::Vector3f uphill = entity.T_submap_entity.linear().col(0).cast<float>();
+  const auto [least, most] =
+      std::ranges::minmax(entity.points_in_submap, {}, [&uphill](const auto& point) { return uphill.dot(point); });
+  return uphill.dot(most - least);
+}
 
 std::string_view className(const EntityAttributes& attributes) {
   static constexpr std::array<std::string_view, std::variant_size_v<EntityAttributes>> kNames = {

@@ -4,7 +4,6 @@
 
 #include "prediction/free_floor.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -15,20 +14,9 @@ namespace {
 
 using geometry::Pose3;
 
-constexpr double kUsualSlope = 0.17 / 0.29;  // of flights whose steps were not measured
+constexpr double kUsualSlope = 0.17 / 0.29;  // of flights that nobody measured
 constexpr double kLeastHeight = 0.1;         // metres; less is no flight
 constexpr double kLeastLevel = 0.5;          // cosine of the x-axis' slope; where it is steeper it has no heading
-
-/// Metres that the flight covers on the ground.
-double runOf(const map::Entity& entity, const map::Staircase& stairs) {
-  const double height = std::abs(stairs.height);
-  if (stairs.stepHeight > 0.0 && stairs.stepDepth > 0.0) return height * stairs.stepDepth / stairs.stepHeight;
-  if (entity.points_in_submap.empty()) return height / kUsualSlope;
-  const Eigen::Vector3f uphill = entity.T_submap_entity.linear().col(0).cast<float>();
-  const auto [least, most] =
-      std::ranges::minmax(entity.points_in_submap, {}, [&uphill](const auto& point) { return uphill.dot(point); });
-  return uphill.dot(most - least);
-}
 
 /// At that height over the sub-map's floor, heading as the entity does.
 Pose3 levelPose(const map::Entity& entity, double floor_z) {
@@ -38,7 +26,8 @@ Pose3 levelPose(const map::Entity& entity, double floor_z) {
 /// 002 eq. (2): where one comes off the flight, at its top or, where it descends, at its foot.
 Pose3 unseenEndOf(const map::Entity& entity, const map::Staircase& stairs) {
   const geometry::Pose2 turn{0.0, 0.0, stairs.height > 0.0 ? 0.0 : std::numbers::pi};
-  const geometry::Pose2 along{runOf(entity, stairs) / 2.0, 0.0, 0.0};
+  const double run = map::runOf(entity).value_or(std::abs(stairs.height) / kUsualSlope);
+  const geometry::Pose2 along{run / 2.0, 0.0, 0.0};
   return levelPose(entity, stairs.height) * geometry::toPose3(turn) * geometry::toPose3(along);
 }
 

@@ -4,20 +4,25 @@
 
 #include <algorithm>
 #include <functional>
+#include <numbers>
 #include <utility>
 
 namespace prodomos::query {
 
 namespace {
 
-constexpr double kStandingDistance = 0.8;  // metres in front of the door
+constexpr double kStandingDistance = 0.8;  // metres in front of a door or of stairs
 constexpr double kFarthest = 1e4;          // metres; no sensor reaches farther from where its sub-map began
 
-/// Where to stand to go through the entity that causes the prediction.
+/// Where to stand to go through the entity that causes the prediction, looking there: in front of a door, of a flight's
+/// foot or, where it descends, of its top.
 geometry::Pose2 viewpointOf(const map::MapView& view, const map::Entity& cause) {
   const auto& submap = view.graph().getNode(cause.submap);
   const geometry::Pose2 entity = geometry::toPose2(submap.T_map_submap * cause.T_submap_entity);
-  return entity * geometry::Pose2{-kStandingDistance, 0.0, 0.0};
+  const auto* stairs = std::get_if<map::Staircase>(&cause.attributes);
+  const double turn = stairs != nullptr && stairs->height < 0.0 ? std::numbers::pi : 0.0;
+  const double distance = kStandingDistance + map::runOf(cause).value_or(0.0) / 2.0;
+  return entity * geometry::Pose2{0.0, 0.0, turn} * geometry::Pose2{-distance, 0.0, 0.0};
 }
 
 Eigen::Vector2d inSubMap(const map::Node& node, const Position& position) {

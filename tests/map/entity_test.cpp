@@ -116,6 +116,45 @@ TEST(Entity, DoorsMayBeMovedAndHumansMove) {
                                                Mobility::kDynamic, Mobility::kStatic, Mobility::kStatic));
 }
 
+// --- the run of a flight
+
+Entity flight(double height, double stepHeight, double stepDepth) {
+  Entity entity;
+  entity.T_submap_entity = geometry::toPose3({5.0, -1.0, 0.5}, height / 2.0);
+  entity.attributes =
+      Staircase{.height = height, .stepWidth = 1.2, .stepHeight = stepHeight, .stepDepth = stepDepth, .stepCount = 15};
+  return entity;
+}
+
+TEST(RunOfAFlight, IsThatOfItsSteps) {
+  for (const double height : {2.55, -2.55}) {
+    auto entity = flight(height, 0.17, 0.28);
+    EXPECT_NEAR(runOf(entity).value(), 15 * 0.28, 1e-9) << "up or down";
+    entity.points_in_submap = {{0, 0, 0}, {1, 1, 1}};
+    EXPECT_NEAR(runOf(entity).value(), 15 * 0.28, 1e-9) << "whatever points one has of it";
+  }
+}
+
+TEST(RunOfAFlight, IsThatOfItsPointsWhereStepsAreNotMeasured) {
+  auto entity = flight(2.5, 0.0, 0.28);
+  EXPECT_EQ(runOf(entity), std::nullopt);
+  for (const double along : {-1.5, 0.3, 2.0}) {
+    const Eigen::Vector3d point_in_entity(along, 0.4 * along, 7.0 - along);
+    entity.points_in_submap.push_back((entity.T_submap_entity * point_in_entity).cast<float>());
+  }
+  EXPECT_NEAR(runOf(entity).value(), 3.5, 1e-5);
+}
+
+TEST(RunOfAFlight, IsNotToldOfWhatHasNone) {
+  EXPECT_EQ(runOf(flight(kNan, 0.17, 0.28)), std::nullopt);
+  EXPECT_EQ(runOf(flight(2.5, kNan, 0.28)), std::nullopt);
+  EXPECT_EQ(runOf(flight(2.5, 0.17, -0.28)), std::nullopt);
+  auto door = flight(2.5, 0.17, 0.28);
+  door.points_in_submap = {{0, 0, 0}, {1, 1, 1}};
+  door.attributes = Door{.width = 0.9};
+  EXPECT_EQ(runOf(door), std::nullopt);
+}
+
 // --- every name of every enumeration
 
 template <typename Enum>

@@ -11,7 +11,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace prodomos::query {
 namespace {
@@ -131,7 +133,8 @@ TEST_F(SampleMapQuery, LeavesOutImprobableRooms) {
   EXPECT_THAT(predictedRooms(view_, 0.83), IsEmpty());
 }
 
-TEST(PredictedRooms, AreThoseStillOpenTheMostProbableFirst) {
+/// Without edges, layers and predictions.
+map::MapChange sampleMapToBeChanged() {
   const test::SampleMap sample;
   const auto whole = sample.view();
   map::MapChange change;
@@ -139,8 +142,14 @@ TEST(PredictedRooms, AreThoseStillOpenTheMostProbableFirst) {
   change.floors = whole.floors();
   for (const auto id : whole.graph().nodes()) change.nodes.push_back(whole.graph().getNode(id));
   change.entities = whole.entities();
+  return change;
+}
+
+TEST(PredictedRooms, AreThoseStillOpenTheMostProbableFirst) {
+  const auto sample = test::SampleMap().view().predictions().at(0);
+  auto change = sampleMapToBeChanged();
   const auto predict = [&](int id, double probability, map::PredictionState state) {
-    auto prediction = whole.predictions().at(0);
+    auto prediction = sample;
     prediction.id = {id};
     prediction.probability = probability;
     prediction.state = state;
@@ -157,6 +166,30 @@ TEST(PredictedRooms, AreThoseStillOpenTheMostProbableFirst) {
   std::vector<std::int64_t> found;
   for (const auto& room : predictedRooms(store.view())) found.push_back(room.prediction.value);
   EXPECT_THAT(found, ElementsAre(2, 3, 1));
+}
+
+/// Of a room beyond the stairs from x = -0.775 uphill to x = -3.025, which are one storey high.
+geometry::Pose2 viewpointBeforeStairs(double height) {
+  auto change = sampleMapToBeChanged();
+  auto& stairs = change.entities.at(2);
+  std::get<map::Staircase>(stairs.attributes).height = height;
+  auto prediction = test::SampleMap().view().predictions().at(0);
+  prediction.cause = stairs.id;
+  change.predictions = {prediction};
+  auto store = map::MapStore::inMemory();
+  store.commit(change);
+  return predictedRooms(store.view()).at(0).viewpoint_in_map;
+}
+
+TEST(PredictedRooms, AreEnteredFromTheNearEndOfTheirStairs) {
+  const auto up = viewpointBeforeStairs(3.0);
+  EXPECT_NEAR(up.x, -0.775 + 0.8, 1e-9);
+  EXPECT_NEAR(up.y, 0.0, 1e-9);
+  EXPECT_NEAR(std::abs(up.theta), std::numbers::pi, 1e-9) << "looks uphill";
+  const auto down = viewpointBeforeStairs(-3.0);
+  EXPECT_NEAR(down.x, -3.025 - 0.8, 1e-9);
+  EXPECT_NEAR(down.y, 0.0, 1e-9);
+  EXPECT_NEAR(geometry::normalizeAngle(down.theta), 0.0, 1e-9) << "looks downhill";
 }
 
 /// Nothing moves afterwards, and nothing finds itself in another session.

@@ -82,6 +82,9 @@ struct Entity {
   std::vector<Eigen::Vector3f> points_in_submap;  ///< may be empty
 };
 
+/// Metres that a staircase covers on the ground; none where neither its steps nor its points tell, nor of what is none.
+std::optional<double> runOf(const Entity& entity);
+
 /// "staircase", "door", "human", "object_box", "cuboid", "plane_patch".
 std::string_view className(const EntityAttributes& attributes);
 Mobility mobility(const EntityAttributes& attributes);

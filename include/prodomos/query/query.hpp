@@ -29,7 +29,7 @@ struct PredictedRoom {
   std::optional<int> floor;
   double probability = 0.0;
   double expectedArea = 0.0;         ///< m²
-  geometry::Pose2 viewpoint_in_map;  ///< where to stand to enter it: free, in front of the door, facing it
+  geometry::Pose2 viewpoint_in_map;  ///< where to stand to enter it: in front of the door or the stairs, facing them
   std::optional<map::Route> route;   ///< from `from`, where one was given
 };
 
