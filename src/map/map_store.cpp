@@ -151,11 +151,11 @@ class ChangeWriter {
   }
 
   void write(const std::vector<Track>& tracks) {
-    auto row = database_.prepare(upsertion("track", "id", "session, class, attributes, revision"));
+    auto row = database_.prepare(upsertion("track", "id", "session, class, attributes, entity, revision"));
     auto state = database_.prepare(
         upsertion("track_state", "track, time_ns", "node, " + poseColumns() + ", vx, vy, vz, attributes, revision"));
     for (const auto& track : tracks) {
-      row << track.id << track.session << track.className << track.attributes << revision_;
+      row << track.id << track.session << track.className << track.attributes << track.entity << revision_;
       row.run();
       for (const auto& s : track.states) {
         const auto speed = [&](int axis) {

@@ -196,13 +196,16 @@ std::vector<Event> MapView::events() const {
 std::vector<Track> MapView::tracks() const {
   const Database::Snapshot snapshot(*database_);
   std::vector<Track> tracks;
-  auto row = database_->prepare("SELECT id, session, class, attributes FROM track ORDER BY id");
+  auto row =
+      database_->prepare("SELECT id, session, class, attributes, " +
+                         std::string(tracksHaveEntities(*database_) ? "entity" : "NULL") + " FROM track ORDER BY id");
   while (row.step()) {
     Track track{getId<base::TrackId>(row, 0),
                 getId<base::SessionId>(row, 1),
                 row.get<std::string>(2),
                 row.get<std::string>(3),
-                {}};
+                {},
+                findId<base::EntityId>(row, 4)};
     auto state = database_->prepare(
         "SELECT time_ns, node, x, y, z, qx, qy, qz, qw, vx, vy, vz, attributes FROM track_state WHERE track = ? "
         "ORDER BY time_ns");

@@ -49,7 +49,7 @@ CREATE TABLE edge (
 
 CREATE TABLE track (
   id INTEGER PRIMARY KEY, session INTEGER NOT NULL REFERENCES session, class TEXT NOT NULL, attributes TEXT NOT NULL,
-  revision INTEGER NOT NULL);
+  revision INTEGER NOT NULL, entity INTEGER REFERENCES entity);
 CREATE TABLE track_state (
   track INTEGER NOT NULL REFERENCES track, time_ns INTEGER NOT NULL, node INTEGER NOT NULL REFERENCES node,
   x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL, qx REAL NOT NULL, qy REAL NOT NULL, qz REAL NOT NULL, qw REAL NOT NULL,
@@ -157,6 +157,7 @@ void upgradeSchema(const Database& database) {
   }
   database.execute("DROP TABLE prediction");  // nobody wrote any before version 3
   database.execute(kPredictionTable);
+  database.execute("ALTER TABLE track ADD COLUMN entity INTEGER REFERENCES entity");
   database.execute("PRAGMA user_version = " + std::to_string(kSchemaVersion));
   transaction.commit();
 }
@@ -166,6 +167,10 @@ bool hasCovariances(const Database& database) {
 }
 
 bool hasPredictions(const Database& database) {
+  return versionOf(database) >= 3;
+}
+
+bool tracksHaveEntities(const Database& database) {
   return versionOf(database) >= 3;
 }
 

@@ -20,5 +20,6 @@ void upgradeSchema(const Database& database);
 /// What an older version does not have is NULL in queries.
 bool hasCovariances(const Database& database);
 bool hasPredictions(const Database& database);
+bool tracksHaveEntities(const Database& database);
 
 }  // namespace prodomos::map

@@ -175,8 +175,11 @@ void PersonTracker::Implementation::addTo(map::MapChange& change) {
     for (auto& track : *tracks) {
       if (!track.isConfirmed() || !std::exchange(track.hasChanged, false)) continue;
       change.entities.push_back(track.entity());
-      change.tracks.push_back(
-          {.id = track.track, .session = session_, .className = "human", .states = track.takeStates()});
+      change.tracks.push_back({.id = track.track,
+                               .session = session_,
+                               .className = "human",
+                               .states = track.takeStates(),
+                               .entity = track.entityId});
     }
   }
   forgotten_.clear();

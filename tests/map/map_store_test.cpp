@@ -143,6 +143,14 @@ TEST_F(MapFile, KeepsAnEmptyCommitAsARevision) {
   EXPECT_EQ(store.view().revision(), 2);
 }
 
+Entity personIn(base::SubMapId submap) {
+  Entity person;
+  person.id = {9};
+  person.submap = submap;
+  person.attributes = Human{};
+  return person;
+}
+
 TEST_F(MapFile, KeepsTracksAndAddsWhatTheyDidSince) {
   auto change = twoNodes();
   Track walker{.id = {3}, .session = {1}, .className = "human", .attributes = R"({"name":"Ada"})"};
@@ -152,7 +160,9 @@ TEST_F(MapFile, KeepsTracksAndAddsWhatTheyDidSince) {
   auto store = MapStore::create(path_);
   store.commit(change);
   MapChange later;
+  later.entities = {personIn({2})};
   later.tracks = {{.id = {3}, .session = {1}, .className = "human", .attributes = "{}"}};
+  later.tracks[0].entity = later.entities[0].id;
   later.tracks[0].states = {{at(3), {2}, somePose(3), std::nullopt, "{}"}};
   store.commit(later);
   store.close();
@@ -163,6 +173,7 @@ TEST_F(MapFile, KeepsTracksAndAddsWhatTheyDidSince) {
   EXPECT_EQ(tracks[0].session, base::SessionId{1});
   EXPECT_EQ(tracks[0].className, "human");
   EXPECT_EQ(tracks[0].attributes, "{}");
+  EXPECT_EQ(tracks[0].entity, base::EntityId{9});
   ASSERT_EQ(tracks[0].states.size(), 3U);
   const auto& first = tracks[0].states[0];
   EXPECT_EQ(first.time, at(1));
@@ -836,13 +847,14 @@ void makeFirstVersion(const std::filesystem::path& path) {
   PlainSqlite(path).query(
       "CREATE TABLE stored AS SELECT * FROM trajectory; DROP VIEW trajectory; DROP TABLE trajectory_point;"
       "ALTER TABLE stored RENAME TO trajectory; CREATE INDEX trajectory_by_node ON trajectory (node);"
-      "ALTER TABLE node DROP COLUMN covariance; PRAGMA user_version = 1");
+      "ALTER TABLE node DROP COLUMN covariance; ALTER TABLE track DROP COLUMN entity; PRAGMA user_version = 1");
 }
 
 TEST_F(MapFile, OfTheFirstSchemaIsReadAndGrown) {
   auto change = twoNodes();
   change.nodes[1].T_map_submap = somePose(3);
   change.trajectory = {{{1}, at(1), {1}, somePose(1), {}}, {{1}, at(2), {2}, somePose(2), {}}};
+  change.tracks = {{.id = {3}, .session = {1}, .className = "human"}};
   write(change);
   const auto written = MapView::open(path_).trajectory();
   makeFirstVersion(path_);
@@ -859,6 +871,7 @@ TEST_F(MapFile, OfTheFirstSchemaIsReadAndGrown) {
     }
   };
   expectSame(MapView::open(path_));
+  EXPECT_EQ(MapView::open(path_).tracks().at(0).entity, std::nullopt);
   EXPECT_EQ(PlainSqlite(path_).value("PRAGMA user_version"), "1") << "reading changes nothing";
 
   const auto copy = folder_.path() / "copy.prodomos";

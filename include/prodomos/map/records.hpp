@@ -70,9 +70,10 @@ struct TrackState {
 struct Track {
   base::TrackId id;
   base::SessionId session;
-  std::string className;           ///< "human", "object_box"
-  std::string attributes = "{}";   ///< JSON object, by class
-  std::vector<TrackState> states;  ///< ascending in time
+  std::string className;                   ///< "human", "object_box"
+  std::string attributes = "{}";           ///< JSON object, by class
+  std::vector<TrackState> states;          ///< ascending in time
+  std::optional<base::EntityId> entity{};  ///< the same thing where it was seen last
 };
 
 /// All running state at a sub-map's end, for `--resume`.
