@@ -21,8 +21,10 @@ constexpr double kGreatestGap = 1.5;   // metres along the flight that nobody ha
 constexpr double kFarthestLook = 5.0;  // metres
 constexpr double kWellSeenShare = 0.7;
 constexpr double kClearlyThrough = 0.8;
-constexpr double kNothing = 3.0;  // where there is nothing, that is as bad as so many misses
-constexpr double kInSlope = 0.3;  // metres along the line of sight
+constexpr double kNothing = 3.0;      // where there is nothing, that is as bad as so many misses
+constexpr double kInSlope = 0.3;      // metres along the line of sight
+constexpr double kLeastClimb = 0.25;  // metres, more than a step
+constexpr double kHeadroom = 1.9;     // metres; flights that lie over one another leave more
 constexpr double kGreatestWidth = 12.0;
 constexpr double kGreatestRiser = 0.4;
 
@@ -70,28 +72,46 @@ FlightPlace placeOf(const StaircaseLandmark& stairs, const Frames& frames, const
   return place;
 }
 
+/// How one flight lies to another, seen from above; metres and radians.
+struct PlanOffset {
+  double along = 0.0;  ///< from foot to foot
+  double gap = 0.0;    ///< along, between what was seen of them
+  double aside = 0.0;
+  double turn = 0.0;
+};
+
+/// Of b from a. None where they lead elsewhere, or one beside the other.
+std::optional<PlanOffset> offsetInPlan(const FlightPlace& a, const FlightPlace& b) {
+  const Eigen::Vector3d uphill = a.uphill();
+  const Eigen::Vector3d between = (b.foot - a.foot).head<3>();
+  const double along = uphill.dot(between);
+  const PlanOffset offset{.along = along,
+                          .gap = std::max({0.0, along - a.last, -(along + b.last)}),
+                          .aside = Eigen::Vector3d::UnitZ().cross(uphill).dot(between),
+                          .turn = geometry::normalizeAngle(b.foot.w() - a.foot.w())};
+  if (std::abs(offset.turn) > kGreatestTurn || std::abs(offset.aside) > (a.width + b.width) / 2.0) return std::nullopt;
+  return offset;
+}
+
+/// Metres that b's edges lie over a's, where both were seen, or nearly.
+double heightOver(const FlightPlace& a, const FlightPlace& b, const PlanOffset& offset) {
+  const double middle = (std::max(0.0, offset.along) + std::min(a.last, offset.along + b.last)) / 2.0;
+  return b.foot.z() - a.foot.z() + b.slope * (middle - offset.along) - a.slope * middle;
+}
+
 /// Of two that may be parts of one flight: their edges lie in one slope, beside or above each other.
 std::optional<double> distanceOfSame(const FlightPlace& a, const FlightPlace& b, const EntityMemoryConfig& config) {
-  const double turn = geometry::normalizeAngle(b.foot.w() - a.foot.w());
-  if (std::abs(turn) > kGreatestTurn) return std::nullopt;
-  const Eigen::Vector3d uphill = a.uphill();
-  const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(uphill);
-  const Eigen::Vector3d offset = (b.foot - a.foot).head<3>();
-  const double along = uphill.dot(offset);
-  const double gap = std::max({0.0, along - a.last, -(along + b.last)});
-  const double aside = across.dot(offset);
-  if (gap > kGreatestGap || std::abs(aside) > (a.width + b.width) / 2.0) return std::nullopt;
+  const auto offset = offsetInPlan(a, b);
+  if (!offset || offset->gap > kGreatestGap) return std::nullopt;
 
   const Eigen::Matrix4d covariance = turned(poseOf({0.0, 0.0, 0.0, -a.foot.w()}), a.covariance + b.covariance);
   const double floor = 2.0 * square(config.positionFloor);
   const double partly = a.widthIsWhole && b.widthIsWhole ? 0.0 : (a.width + b.width) / 4.0;
   const double acrossVariance = covariance(1, 1) + floor + square(partly);
   const double turnVariance = covariance(3, 3) + 2.0 * square(config.headingFloor);
-  // Compared where both were seen, or nearly.
-  const double middle = (std::max(0.0, along) + std::min(a.last, along + b.last)) / 2.0;
-  const double rise = offset.z() + b.slope * (middle - along) - a.slope * middle;
-  const double riseVariance = floor + square(0.1 * gap);
-  const double distance = square(aside) / acrossVariance + square(turn) / turnVariance + square(rise) / riseVariance;
+  const double riseVariance = floor + square(0.1 * offset->gap);
+  const double distance = square(offset->aside) / acrossVariance + square(offset->turn) / turnVariance +
+                          square(heightOver(a, b, *offset)) / riseVariance;
   if (!(distance < kGate)) return std::nullopt;
   return distance;
 }
@@ -119,7 +139,14 @@ bool isPossible(const StaircaseSighting& sighting) {
 void StaircaseMemory::add(const Frames& frames, const Eigen::Vector3d& sensor_in_submap,
                           std::span<const StaircaseSighting> stairs) {
   std::vector<StaircaseSighting> possible;
-  std::ranges::copy_if(stairs, std::back_inserter(possible), isPossible);
+  for (const auto& sighting : stairs) {
+    if (!isPossible(sighting)) continue;
+    if (auto* flight = seenFromElsewhere(frames, sighting)) {
+      flight->noteDetection(sighting.time);
+    } else {
+      possible.push_back(sighting);
+    }
+  }
   const auto landmarkOf = associate(frames, possible);
   for (std::size_t i = 0; i < possible.size(); ++i) {
     auto& flight = landmarks_[landmarkOf[i]];
@@ -134,6 +161,23 @@ void StaircaseMemory::add(const Frames& frames, const Eigen::Vector3d& sensor_in
     for (std::size_t j = 0; isTouched && j < landmarks_.size(); ++j) mergeIfSame(i, j, frames);
   }
   std::erase_if(landmarks_, [](const auto& flight) { return flight.looks.empty(); });
+}
+
+/// Where poses do not tell that the robot climbs, the flight that it climbs seems to sink. Nobody fits between two
+/// flights so near to each other: that one is meant. Once this has happened, heights tell flights apart no longer.
+StaircaseLandmark* StaircaseMemory::seenFromElsewhere(const Frames& frames, const StaircaseSighting& sighting) {
+  const auto seen = placeOf(sighting);
+  StaircaseLandmark* meant = nullptr;
+  for (auto& flight : landmarks_) {
+    const auto place = placeOf(flight, frames, config_);
+    if (distanceOfSame(place, seen, config_)) return nullptr;
+    const auto offset = offsetInPlan(place, seen);
+    if (flight.logOdds < config_.certainty || !offset || offset->gap > 0.0) continue;
+    const double height = std::abs(heightOver(place, seen, *offset));
+    if (heightsAreLost_ || (height > kLeastClimb && height < kHeadroom)) meant = &flight;
+  }
+  heightsAreLost_ = heightsAreLost_ || meant != nullptr;
+  return meant;
 }
 
 std::vector<std::size_t> StaircaseMemory::associate(const Frames& frames, std::span<const StaircaseSighting> stairs) {
@@ -173,7 +217,7 @@ void StaircaseMemory::mergeIfSame(std::size_t i, std::size_t j, const Frames& fr
 }
 
 void StaircaseMemory::look(const Frames& frames, const RgbdView& view, const Surfaces& surfaces) {
-  if (!geometry::isFinite(view.T_submap_camera) || surfaces.depth.known() == 0) return;
+  if (!geometry::isFinite(view.T_submap_camera) || surfaces.depth.known() == 0 || heightsAreLost_) return;
   for (auto& flight : landmarks_) {
     if (flight.lastDetected != view.time) {
       see(flight, frames, view, surfaces);

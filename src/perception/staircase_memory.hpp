@@ -25,9 +25,10 @@ class StaircaseMemory {
   /// Entities that turned out to be others, since the last call.
   std::vector<base::EntityId> takeMerged() { return std::exchange(merged_, {}); }
 
-  static void fields(auto& archive, auto& self) { archive(self.landmarks_, self.lastSubmap_); }
+  static void fields(auto& archive, auto& self) { archive(self.landmarks_, self.lastSubmap_, self.heightsAreLost_); }
 
  private:
+  StaircaseLandmark* seenFromElsewhere(const Frames& frames, const StaircaseSighting& sighting);
   std::vector<std::size_t> associate(const Frames& frames, std::span<const StaircaseSighting> stairs);
   void mergeIfSame(std::size_t i, std::size_t j, const Frames& frames);
   void see(StaircaseLandmark& stairs, const Frames& frames, const RgbdView& view, const Surfaces& surfaces) const;
@@ -35,6 +36,7 @@ class StaircaseMemory {
   EntityMemoryConfig config_;
   std::vector<StaircaseLandmark> landmarks_;
   std::optional<base::SubMapId> lastSubmap_;
+  bool heightsAreLost_ = false;  ///< the robot has climbed, and its poses do not tell
   std::vector<base::EntityId> merged_;
 };
 

@@ -184,6 +184,50 @@ TEST(StaircaseMemory, WhoClimbsDoesNotTakeTheStepBelowForTheFloor) {
   expectFlight(bench, bench.entities()[0], kFlight);
 }
 
+/// As it seems to who has climbed so far up without knowing.
+Flight sunk(Flight flight, double climbed) {
+  flight.foot_z -= climbed;
+  return flight;
+}
+
+/// Up the flight and back down again, always believing to be on the lower floor.
+void climbUnawares(MemoryBench& bench, double time) {
+  for (int tread = 1; tread < kFlight.count - 3; ++tread) {
+    FlightMaker maker(sunk(kFlight, tread * kFlight.riser), 20 + static_cast<std::uint64_t>(tread));
+    const auto eye = kFlight.foot * geometry::Pose2{(tread - 0.5) * kFlight.depth, 0.0, 0.0};
+    add(bench, 0, {eye.x, eye.y, 1.2}, maker.see(time + tread, tread + 2, kFlight.count));
+  }
+  FlightMaker maker(sunk(kFlight, kFlight.rise()), 50);
+  const auto head = kFlight.foot * geometry::Pose2{6.0, 0.0, 0.0};
+  for (int i = 0; i < 6; ++i) add(bench, 0, {head.x, head.y, 1.2}, maker.seeFromAbove(time + 30.0 + i, 9, 17));
+}
+
+TEST(StaircaseMemory, WhoClimbsUnawaresSeesNoOtherFlight) {
+  MemoryBench bench;
+  FlightMaker maker(kFlight, 12);
+  for (int i = 0; i < 5; ++i) add(bench, 0, {0.3 * i, 0.0, 1.2}, maker.see(i, 1, 12));
+  const int seen = bench.entities().at(0).observations;
+  climbUnawares(bench, 10.0);
+  ASSERT_THAT(bench.entities(), SizeIs(1));
+  EXPECT_GT(bench.entities()[0].observations, seen + 15) << "it is this one that was seen";
+  for (int i = 0; i < 5; ++i) add(bench, 0, {0.3 * i, 0.0, 1.2}, maker.see(60.0 + i, 1, kFlight.count));
+  ASSERT_THAT(bench.entities(), SizeIs(1));
+  expectFlight(bench, bench.entities()[0], kFlight);
+}
+
+TEST(StaircaseMemory, WhoHasClimbedUnawaresSeesFlightsElsewhere) {
+  MemoryBench bench;
+  FlightMaker maker(kFlight, 13);
+  for (int i = 0; i < 5; ++i) add(bench, 0, {0.3 * i, 0.0, 1.2}, maker.see(i, 1, 12));
+  climbUnawares(bench, 10.0);
+  Flight next = kFlight;
+  next.foot = kFlight.foot * geometry::Pose2{17 * kFlight.depth, 1.8, kPi};
+  FlightMaker other(next, 14);
+  for (int i = 0; i < 5; ++i) add(bench, 0, {8.0 + 0.3 * i, 5.0, 1.2}, other.see(60.0 + i, 1, kFlight.count));
+  ASSERT_THAT(bench.entities(), SizeIs(2));
+  expectFlight(bench, bench.entities()[1], next);
+}
+
 TEST(StaircaseMemory, AFlightThatIsOnlySeenFromAboveDescends) {
   MemoryBench bench;
   bench.submaps[0] = geometry::toPose3({8.0, 3.0, -2.0}, kFlight.rise());
