@@ -39,6 +39,7 @@ void writeReport(const ReplayResult& result, const std::string& path) {
       {"faults", {{"count", report.faultCount}, {"first", report.faults}}},
       {"poses", {{"origin", result.poses}, {"lost", report.lost}}},
       {"not_looked_at", report.notLookedAt},
+      {"refused", report.refused},
       {"entities", entities},
       {"submaps", report.submaps},
       {"loops", result.loops},
@@ -78,6 +79,9 @@ void printReport(const ReplayResult& result, const sensors::SourceInfo& log, con
   }
   for (const auto& [reason, count] : report.notLookedAt) {
     std::cout << "  unseen    " << grouped(count) << "  " << reason << '\n';
+  }
+  for (const auto& [reason, count] : report.refused) {
+    std::cout << "  refused   " << grouped(count) << "  " << reason << '\n';
   }
   if (result.meetsEarlier && *result.meetsEarlier) {
     std::cout << "            meets what the map held before: all is in one frame\n";

@@ -29,7 +29,7 @@ constexpr std::size_t kMostWaiting = 64;
 constexpr base::Duration kLongestWait = std::chrono::seconds(2);
 
 /// Of what a checkpoint holds. Raise it with every change there.
-constexpr int kCheckpointVersion = 4;
+constexpr int kCheckpointVersion = 5;
 
 /// Where there is something, and where nothing: what layers are made of. Other readings do not begin sub-maps.
 bool tellsDistances(const sensors::ReadingData& data) {
@@ -104,7 +104,7 @@ class Mapper::Impl {
   /// For doorways, in a finished sub-map and what lies about it.
   void lookAround(base::SubMapId submap);
   /// Bets on what lies beyond, as far as the finished sub-map told anything new; everywhere, where none is named.
-  void predict(std::optional<base::SubMapId> finished);
+  void predict(std::optional<base::SubMapId> finished, const std::vector<map::Track>& tracks);
 
   void use(const sensors::Reading& reading);
   void skip(const std::string& reason) { ++report.skippedByReason[reason]; }
@@ -320,15 +320,15 @@ void Mapper::Impl::passOn(map::EdgeKind kind, const geometry::Pose3& T_travel_bo
   lookAround(running_->node().id);
   const auto node = nodeBelow(T_travel_body, time);
   const auto edge = edgeBetween(*running_, node, kind);
-  predict(running_->node().id);
+  map::MapChange change;
+  perception_->addTo(change);
+  predict(running_->node().id, change.tracks);
   const auto finished = std::exchange(running_, RunningSubMap(node, edge, config_.layers));
   perception_->enter(node.T_travel_submap.inverse() * finished->node().T_travel_submap);
   refiner_.add(node, edge);
   ++report.submaps;
-  map::MapChange change;
   change.floors = floors_.floors();
   finished->addTo(change);
-  perception_->addTo(change);
   predictor_->addTo(change);
   refiner_.addTo(change, node.id, false);
   change.checkpoint = checkpoint();
@@ -360,7 +360,7 @@ void Mapper::Impl::lookAround(base::SubMapId submap) {
   if (around) perception_->lookAround(*around, submapPoses());
 }
 
-void Mapper::Impl::predict(std::optional<base::SubMapId> finished) {
+void Mapper::Impl::predict(std::optional<base::SubMapId> finished, const std::vector<map::Track>& tracks) {
   const auto timing = times.measure("predict");
   const auto entities = perception_->entities();
   const auto nodes = refiner_.nodes();
@@ -370,8 +370,10 @@ void Mapper::Impl::predict(std::optional<base::SubMapId> finished) {
                       .nodes = nodes,
                       .gridsNear = [&](const auto& spot) { return surroundings_.gridsNear(spot, running_->submap()); },
                       .newNodeId = [&] { return refiner_.newNodeId(); },
-                      .newEdgeId = [&] { return refiner_.newEdgeId(); }},
+                      .newEdgeId = [&] { return refiner_.newEdgeId(); },
+                      .tracks = tracks},
                      finished);
+  report.refused = predictor_->refused();
 }
 
 map::Node Mapper::Impl::nodeBelow(const geometry::Pose3& T_travel_body, base::Time time) {
@@ -425,11 +427,11 @@ void Mapper::Impl::finish(const sensors::EndOfLog& end) {
     perception_->finish(running_->submap());
     // Once more everywhere: by now the neighbours are known on all sides, and all poses are the best.
     for (const auto submap : refiner_.nodesOf(session_.id)) lookAround(submap);
-    predict(std::nullopt);
+    perception_->addTo(change);
+    predict(std::nullopt, change.tracks);
   }
   const auto last = std::exchange(running_, std::nullopt);
   if (last) last->addTo(change);
-  perception_->addTo(change);
   predictor_->addTo(change);
   refiner_.addTo(change, base::SubMapId{-1}, true);
   session_.state = map::SessionState::kComplete;

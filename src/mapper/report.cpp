@@ -31,6 +31,7 @@ void Report::save(base::ByteWriter& out) const {
   mapper::save(out, usedByKind);
   mapper::save(out, skippedByReason);
   mapper::save(out, notLookedAt);
+  mapper::save(out, refused);
   out << static_cast<std::uint64_t>(faults.size());
   for (const auto& fault : faults) out << fault;
 }
@@ -40,6 +41,7 @@ void Report::load(base::ByteReader& in) {
   mapper::load(in, usedByKind);
   mapper::load(in, skippedByReason);
   mapper::load(in, notLookedAt);
+  mapper::load(in, refused);
   faults.clear();
   for (auto left = in.read<std::uint64_t>(); left > 0; --left) faults.push_back(in.read<std::string>());
 }

@@ -64,20 +64,6 @@ class Fault {
   const Pose3& pose_;
 };
 
-std::string faultOf(const map::Entity& entity) {
-  return std::visit(Fault(entity.T_submap_entity), entity.attributes);
-}
-
-bool isAnythingKnown(const Surroundings& around) {
-  const auto& box = Surroundings::kBox;
-  for (int y = box.first.y; y <= box.last.y; ++y) {
-    for (int x = box.first.x; x <= box.last.x; ++x) {
-      if (around.state(geometry::CellIndex{x, y}) != map::CellState::kUnknown) return true;
-    }
-  }
-  return false;
-}
-
 /// The entity as told in S_j (002 §II-C, §II-D).
 map::Entity shared(map::Entity entity, const Pose3& T_i_j) {
   const Pose3 T_j_i = T_i_j.inverse();
@@ -181,6 +167,10 @@ void describe(base::ConfigVisitor& visitor, ExtrapolationConfig& config) {
   visitor.endSection();
 }
 
+std::string faultOf(const map::Entity& entity) {
+  return std::visit(Fault(entity.T_submap_entity), entity.attributes);
+}
+
 Pose3 T_submap_here(const map::Entity& entity) {
   if (!faultOf(entity).empty()) return Pose3::Identity();
   const auto* stairs = std::get_if<map::Staircase>(&entity.attributes);
@@ -190,7 +180,7 @@ Pose3 T_submap_here(const map::Entity& entity) {
 Extrapolation extrapolate(const map::Entity& entity, const Surroundings& around, const RoomGuess* guess,
                           const ExtrapolationConfig& config) {
   if (auto fault = faultOf(entity); !fault.empty()) return Refusal{std::move(fault)};
-  if (entity.T_submap_entity.translation().head<2>().norm() > config.range && !isAnythingKnown(around)) {
+  if (entity.T_submap_entity.translation().head<2>().norm() > config.range && !around.isAnythingKnown()) {
     return Refusal{"an entity outside of its sub-map"};
   }
   return std::visit(Model(entity, around, guess, config), entity.attributes);

@@ -4,6 +4,7 @@
 
 #include "prodomos/prediction/room_guess.hpp"
 
+#include "prediction/ledger.hpp"
 #include "prediction/space_behind.hpp"
 
 #include <Eigen/LU>
@@ -19,7 +20,6 @@ namespace {
 using geometry::Pose3;
 using map::PredictionState;
 
-constexpr double kReach = 15.0;        // metres from a sub-map's origin to what its readings may tell something about
 constexpr double kLeastSpace = 2.0;    // m²; what is smaller is no room
 constexpr double kMostlyUnseen = 1.5;  // m² not seen for one that was: less, and the room is known
 constexpr double kLeastMove = 1e-3;    // metres, radians; what moves less need not be told
@@ -34,12 +34,6 @@ bool opensSpace(const map::Entity& entity) {
 double openingWidth(const map::Entity& entity) {
   if (const auto* door = std::get_if<map::Door>(&entity.attributes)) return door->width;
   return std::get<map::Staircase>(entity.attributes).stepWidth;
-}
-
-template <typename Things, typename Id>
-auto findById(Things& things, Id id) {
-  const auto found = std::ranges::find(things, id, [](const auto& thing) { return thing.id; });
-  return found == things.end() ? nullptr : &*found;
 }
 
 bool isSame(const Pose3& a, const Pose3& b) {
@@ -68,12 +62,6 @@ double probabilityOf(const map::Entity& entity, const RoomGuess* guess) {
   return entity.confidence * (guess == nullptr ? kStairsLead : guess->spaceProbability);
 }
 
-map::Event eventOf(const map::Prediction& prediction, base::SessionId session, base::Time time) {
-  const bool isOpen = prediction.state == PredictionState::kOpen;
-  return {time, session, isOpen ? "prediction_made" : "prediction_settled", toString(prediction.id),
-          R"({"state":")" + std::string(toString(prediction.state)) + R"("})"};
-}
-
 }  // namespace
 
 void describe(base::ConfigVisitor& visitor, PredictionConfig& config) {
@@ -84,8 +72,11 @@ void describe(base::ConfigVisitor& visitor, PredictionConfig& config) {
   describe(visitor, config.extrapolation);
 }
 
-Predictor::Predictor(const PredictionConfig& config, const map::MapView& before) : config_(config) {
+Predictor::Predictor(const PredictionConfig& config, const map::MapView& before)
+    : config_(config), walks_(config, before), refusals_(before) {
   for (const auto& prediction : before.predictions()) {
+    nextId_.value = std::max(nextId_.value, prediction.id.value + 1);
+    if (prediction.node == prediction.submap) continue;  // of a walk
     Bet bet{.prediction = prediction, .node = {}, .edge = {}};
     if (const auto* node = before.graph().findNode(prediction.node)) {
       bet.node = *node;
@@ -101,7 +92,8 @@ void Predictor::update(const World& world, std::optional<base::SubMapId> seen) {
   const auto* const news = seen ? findById(world.nodes, *seen) : nullptr;
   for (const auto& entity : world.entities) {
     const auto* const submap = findById(world.nodes, entity.submap);
-    if (!opensSpace(entity) || submap == nullptr) continue;
+    if (const auto fault = faultOf(entity); !fault.empty()) refusals_.add(entity.id, fault, world);
+    if (!opensSpace(entity) || submap == nullptr || !faultOf(entity).empty()) continue;
     const Eigen::Vector3d spot_in_map = submap->T_map_submap * entity.T_submap_entity.translation();
     if (news != nullptr && (news->T_map_submap.translation() - spot_in_map).norm() > kReach) continue;
     const auto known = std::ranges::find(bets_, entity.id, [](const Bet& bet) { return bet.prediction.cause; });
@@ -111,6 +103,8 @@ void Predictor::update(const World& world, std::optional<base::SubMapId> seen) {
       follow(world, entity, *submap, *known);
     }
   }
+  walks_.update(
+      world, seen, [this] { return newId(); }, refusals_);
 }
 
 /// Predicted sub-maps follow those that their doors were seen from; a bet on what is believed no more is lost. Entities
@@ -119,7 +113,8 @@ void Predictor::review(const World& world) {
   for (auto& bet : bets_) {
     const auto* const submap = findById(world.nodes, bet.prediction.submap);
     if (bet.prediction.state != PredictionState::kOpen || submap == nullptr) continue;
-    const bool isGone = findById(world.entities, bet.prediction.cause) == nullptr;
+    const auto* const cause = findById(world.entities, bet.prediction.cause);
+    const bool isGone = cause == nullptr || !faultOf(*cause).empty();
     if (isGone && submap->session == world.session) {
       settle(bet, PredictionState::kRefuted, world);
     } else {
@@ -156,11 +151,12 @@ Surroundings Predictor::surroundingsOf(const World& world, const map::Entity& en
 }
 
 /// Tells what M(S) makes of the entity now, and how likely it is; none where it is refused.
-std::optional<double> Predictor::shape(const map::Entity& entity, const Surroundings& around,
-                                       map::Prediction& prediction) const {
+std::optional<double> Predictor::shape(const World& world, const map::Entity& entity, const Surroundings& around,
+                                       map::Prediction& prediction) {
   std::optional<RoomGuess> guess;
   if (const auto* door = std::get_if<map::Door>(&entity.attributes)) guess = guessRoom(around, door->width);
   const auto beyond = extrapolate(entity, around, guess ? &*guess : nullptr, config_.extrapolation);
+  if (const auto* refusal = std::get_if<Refusal>(&beyond)) refusals_.add(entity.id, refusal->reason, world);
   const auto* const predicted = std::get_if<PredictedSubMap>(&beyond);
   if (predicted == nullptr) return std::nullopt;
   prediction.submap = entity.submap;
@@ -177,10 +173,10 @@ void Predictor::bet(const World& world, const map::Entity& entity, const map::No
   if (space.unseen < std::max(kLeastSpace, kMostlyUnseen * space.seen)) return;
   if (submapWithin(space, around.T_map_here(), world.nodes)) return;
   Bet bet;
-  const auto probability = shape(entity, around, bet.prediction);
+  const auto probability = shape(world, entity, around, bet.prediction);
   if (!probability || *probability < config_.leastProbability) return;
   bet.prediction.probability = *probability;
-  bet.prediction.id = {bets_.empty() ? 0 : bets_.back().prediction.id.value + 1};
+  bet.prediction.id = newId();
   bet.prediction.cause = entity.id;
   bet.prediction.made = world.now;
   bet.node.id = bet.prediction.node = world.newNodeId();
@@ -206,7 +202,7 @@ void Predictor::follow(const World& world, const map::Entity& entity, const map:
   }
   if (space.seen >= kLeastSpace && space.unseen < space.seen) return settle(bet, PredictionState::kConfirmed, world);
   if (space.seen + space.unseen < kLeastSpace) return settle(bet, PredictionState::kRefuted, world);
-  if (!shape(entity, around, bet.prediction)) return settle(bet, PredictionState::kRefuted, world);
+  if (!shape(world, entity, around, bet.prediction)) return settle(bet, PredictionState::kRefuted, world);
   bet.edge.information = informationOf(entity);
   bet.isNews = true;
   place(bet, submap);
@@ -247,6 +243,8 @@ void Predictor::addTo(map::MapChange& change) {
     }
   }
   for (auto& event : std::exchange(events_, {})) change.events.push_back(std::move(event));
+  walks_.addTo(change);
+  refusals_.addTo(change);
 }
 
 }  // namespace prodomos::prediction

@@ -90,6 +90,15 @@ Surroundings::Surroundings(const geometry::Pose3& T_map_here, std::span<const Pl
   }
 }
 
+bool Surroundings::isAnythingKnown() const {
+  for (int y = kBox.first.y; y <= kBox.last.y; ++y) {
+    for (int x = kBox.first.x; x <= kBox.last.x; ++x) {
+      if (state(CellIndex{x, y}) != map::CellState::kUnknown) return true;
+    }
+  }
+  return false;
+}
+
 void Surroundings::set(CellIndex cell, map::CellState state) {
   if (auto* found = cells_.find(cell)) *found = state;
 }

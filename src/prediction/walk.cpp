@@ -17,7 +17,6 @@ namespace {
 
 using geometry::Pose2;
 
-constexpr base::Duration kBreak = std::chrono::seconds(1);
 constexpr base::Duration kPaceOver = std::chrono::seconds(1);
 constexpr double kFarthest = 8.0;       // metres from a walk's beginning: with what is extrapolated, it is looked at
 constexpr double kStride = 0.1;         // metres between places of a way
@@ -154,6 +153,9 @@ std::variant<ConditionalFloor, Refusal> extrapolate(const Walk& walk, const Surr
   const Eigen::Vector2d paceIn = paceAtBeginning(walk);
   const Eigen::Vector2d paceOut = paceAtEnd(walk);
   if (std::max(paceIn.norm(), paceOut.norm()) > kFastest) return Refusal{"a person faster than anyone runs"};
+  if (positionOf(walk.states.front()).norm() > config.range && !around.isAnythingKnown()) {
+    return Refusal{"an entity outside of its sub-map"};
+  }
   Way way(walk, around, config);
   way.followWalk();
   if (walk.entered) way.extrapolate(walk.states.front(), -paceIn);

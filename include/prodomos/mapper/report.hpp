@@ -23,6 +23,7 @@ struct Report {
   double distance = 0.0;                            ///< metres
   std::int64_t lost = 0;                            ///< readings used whose own pose could not be estimated
   std::map<std::string, std::int64_t> notLookedAt;  ///< what detectors could not look at, by reason
+  std::map<std::string, std::int64_t> refused;      ///< entities that nothing is predicted from, by reason
 
   static constexpr std::size_t kMostFaults = 5;
   void addFault(const std::string& fault);

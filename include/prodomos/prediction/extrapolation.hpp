@@ -60,6 +60,9 @@ struct Refusal {
 
 using Extrapolation = std::variant<PredictedSubMap, ConditionalFloor, NothingBeyond, Refusal>;
 
+/// What extrapolate() refuses the entity for wherever it is; empty: nothing.
+std::string faultOf(const map::Entity& entity);
+
 /// T_submap_here: the frame that the surroundings of an entity are told in (see Surroundings); of a person, where it
 /// stands and is heading. The identity where extrapolate() has something against it.
 geometry::Pose3 T_submap_here(const map::Entity& entity);

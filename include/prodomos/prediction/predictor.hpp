@@ -4,37 +4,33 @@
 
 #include "prodomos/map/map_store.hpp"
 #include "prodomos/prediction/config.hpp"
+#include "prodomos/prediction/refusals.hpp"
 #include "prodomos/prediction/surroundings.hpp"
+#include "prodomos/prediction/walk_bets.hpp"
+#include "prodomos/prediction/world.hpp"
 
-#include <functional>
+#include <cstdint>
+#include <map>
 #include <optional>
-#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace prodomos::prediction {
 
-/// Bets on what lies beyond doors and stairs, and settles them when the place is seen. All that it knows of the past
-/// stands in the map, so that one that goes on with a map bets as one that never stopped.
+/// Bets on what lies beyond doors and stairs and along people's ways, and settles them when the place is seen. All that
+/// it knows of the past stands in the map, so that one that goes on with a map bets as one that never stopped.
 class Predictor {
  public:
   /// Goes on with the ledger of the map.
   Predictor(const PredictionConfig& config, const map::MapView& before);
 
-  /// What is known now.
-  struct World {
-    base::Time now{};
-    base::SessionId session;
-    std::span<const map::Entity> entities;  ///< all that are believed
-    std::span<const map::Node> nodes;       ///< observed sub-maps, where they lie now
-    /// Grids that may know something about a spot.
-    std::function<std::vector<PlacedGrid>(const Eigen::Vector3d& spot_in_map)> gridsNear;
-    std::function<base::SubMapId()> newNodeId;
-    std::function<base::EdgeId()> newEdgeId;
-  };
   /// Makes bets, shapes open ones anew and settles them: those of entities no farther than `reach` from the sub-map, in
   /// which something new was seen; of all, where none is named.
   void update(const World& world, std::optional<base::SubMapId> seen);
 
+  /// Entities that M(S) refused in this session, by reason.
+  std::map<std::string, std::int64_t> refused() const { return refusals_.byReason(); }
   /// What has changed since the last call.
   void addTo(map::MapChange& change);
 
@@ -46,16 +42,21 @@ class Predictor {
     bool isNews = false;
   };
 
+  base::PredictionId newId() { return std::exchange(nextId_, base::PredictionId{nextId_.value + 1}); }
   void review(const World& world);
   void bet(const World& world, const map::Entity& entity, const map::Node& submap);
   void follow(const World& world, const map::Entity& entity, const map::Node& submap, Bet& bet);
   void settle(Bet& bet, map::PredictionState state, const World& world, std::optional<base::SubMapId> mergedInto = {});
-  std::optional<double> shape(const map::Entity& entity, const Surroundings& around, map::Prediction& prediction) const;
+  std::optional<double> shape(const World& world, const map::Entity& entity, const Surroundings& around,
+                              map::Prediction& prediction);
   void place(Bet& bet, const map::Node& submap);
   Surroundings surroundingsOf(const World& world, const map::Entity& entity, const map::Node& submap) const;
 
   PredictionConfig config_;
   std::vector<Bet> bets_;  // by id
+  WalkBets walks_;
+  Refusals refusals_;
+  base::PredictionId nextId_{0};
   std::vector<map::Event> events_;
 };
 

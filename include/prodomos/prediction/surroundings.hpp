@@ -49,7 +49,8 @@ class Surroundings {
   map::CellState state(const Eigen::Vector2d& point_in_here) const {
     return state(geometry::cellAt(point_in_here.x(), point_in_here.y(), kCell));
   }
-  /// For worlds of tests and of floor plans.
+  bool isAnythingKnown() const;
+  /// For what else is known, and for worlds of tests and of floor plans.
   void set(geometry::CellIndex cell, map::CellState state);
 
   std::vector<Opening> openings;              ///< without the entity's own

@@ -25,9 +25,11 @@ struct Walk {
   bool left = false;          ///< after it, likewise
 };
 
-/// Of a person's track, in that sub-map; a break is a second or more without a state. No walk leads farther than 8 m
-/// from its beginning: it is continued by the next. `isOver`: the person was not seen for a second after the last
-/// state.
+/// So long without a state, and the person was out of sight.
+inline constexpr base::Duration kBreak = std::chrono::seconds(1);
+
+/// Of a person's track, in that sub-map. No walk leads farther than 8 m
+/// from its beginning: it is continued by the next. `isOver`: the person was out of sight after the last state.
 std::vector<Walk> walksOf(const map::Track& track, base::SubMapId submap, int dominantSide, bool isOver);
 
 /// m/s at the beginning or the end of the walk, over its first or last second; of a single state as told.
