@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 
 namespace prodomos::prediction {
 
@@ -47,42 +46,6 @@ Piece holesOf(const CellSet& cells) {
 }
 
 }  // namespace
-
-Piece takePiece(CellSet& cells, CellIndex start, bool byCorners) {
-  Piece piece;
-  const auto take = [&](CellIndex cell) {
-    auto* value = cells.find(cell);
-    if (value == nullptr || *value == 0) return;
-    *value = 0;
-    piece.push_back(cell);
-  };
-  take(start);
-  std::size_t taken = 0;
-  while (taken < piece.size()) {
-    const auto cell = piece[taken++];
-    for (std::size_t side = 0; side < kSteps.size(); ++side) {
-      const auto beside = cell + kSteps[side];
-      take(beside);
-      if (byCorners) take(beside + kSteps[(side + 1) % kSteps.size()]);
-    }
-  }
-  return piece;
-}
-
-std::vector<Piece> piecesOf(const CellSet& cells) {
-  auto rest = cells;
-  std::vector<Piece> pieces;
-  const auto& box = cells.box();
-  for (int y = box.first.y; y <= box.last.y; ++y) {
-    for (int x = box.first.x; x <= box.last.x; ++x) {
-      if (rest.at({x, y}) == 0) continue;
-      pieces.push_back(takePiece(rest, {x, y}));
-      std::ranges::sort(pieces.back(), {}, [](CellIndex cell) { return std::pair(cell.y, cell.x); });
-    }
-  }
-  std::ranges::stable_sort(pieces, std::greater(), &Piece::size);
-  return pieces;
-}
 
 Piece withoutHoles(const Piece& piece) {
   if (piece.empty()) return piece;

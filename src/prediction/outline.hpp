@@ -2,24 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "prodomos/geometry/cells.hpp"
+#include "prodomos/geometry/pieces.hpp"
 
-#include <cstdint>
 #include <vector>
 
-/// Sets of cells, and the polygons that go round them.
+/// Polygons that go round pieces of cells.
 namespace prodomos::prediction {
 
-using CellSet = geometry::CellMap<std::uint8_t>;
-
-/// One 4-connected set of cells, row by row.
-using Piece = std::vector<geometry::CellIndex>;
-
-/// Takes out of `cells` what hangs together with `start`, by edges and, if wanted, by corners.
-Piece takePiece(CellSet& cells, geometry::CellIndex start, bool byCorners = false);
-
-/// The greatest first; of equal ones that which begins nearest to the first corner of the box.
-std::vector<Piece> piecesOf(const CellSet& cells);
+using geometry::CellSet;
+using geometry::Piece;
+using geometry::piecesOf;
+using geometry::takePiece;
 
 /// Without the cells that lie to one side of a hole, so that the way from each hole to the outside is open and one
 /// outline tells the rest; of the rest, its greatest piece.

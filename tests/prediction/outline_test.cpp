@@ -31,14 +31,6 @@ std::set<CellIndex> asSet(const std::vector<CellIndex>& cells) {
   return {cells.begin(), cells.end()};
 }
 
-TEST(Outline, PiecesHangTogetherByEdgesAndTheGreatestComesFirst) {
-  const auto pieces = piecesOf(drawn({"#..##", ".#.##", "....."}));
-  ASSERT_EQ(pieces.size(), 3U);
-  EXPECT_EQ(pieces[0].size(), 4U);
-  EXPECT_EQ(pieces[1], (Piece{{0, 0}}));
-  EXPECT_EQ(pieces[2], (Piece{{1, 1}}));
-}
-
 TEST(Outline, OfARectangleHasFourCorners) {
   const auto outline = outlineOf(piecesOf(drawn({"###", "###"})).front(), 0.5);
   EXPECT_EQ(outline.size(), 4U);
