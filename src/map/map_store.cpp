@@ -117,12 +117,18 @@ class ChangeWriter {
     auto row = database_.prepare(upsertion("prediction", "id",
                                            "entity, submap, node, " + poseColumns() +
                                                ", probability, expected_area, areas, room, made_ns, state, "
-                                               "settled_ns, merged_into, revision"));
+                                               "settled_ns, merged_into, viewpoint_x, viewpoint_y, "
+                                               "viewpoint_theta, revision"));
     for (const auto& prediction : predictions) {
+      const auto& viewpoint = prediction.viewpoint_in_submap;
+      const auto ofViewpoint = [&](double geometry::Pose2::*coordinate) {
+        return viewpoint ? std::optional(*viewpoint.*coordinate) : std::nullopt;
+      };
       row << prediction.id << prediction.cause << prediction.submap << prediction.node << prediction.T_submap_node
           << prediction.probability << prediction.expectedArea << toJson(prediction.areas)
           << toJson(prediction.room_in_node) << prediction.made << toString(prediction.state) << prediction.settled
-          << prediction.mergedInto << revision_;
+          << prediction.mergedInto << ofViewpoint(&geometry::Pose2::x) << ofViewpoint(&geometry::Pose2::y)
+          << ofViewpoint(&geometry::Pose2::theta) << revision_;
       row.run();
     }
   }

@@ -70,7 +70,7 @@ std::vector<Prediction> readPredictions(const Database& database) {
   if (!hasPredictions(database)) return predictions;
   auto row = database.prepare(
       "SELECT id, entity, submap, node, probability, expected_area, areas, room, made_ns, state, "
-      "settled_ns, merged_into, " +
+      "settled_ns, merged_into, viewpoint_x, viewpoint_y, viewpoint_theta, " +
       poseColumns() + " FROM prediction ORDER BY id");
   while (row.step()) {
     Prediction prediction;
@@ -86,7 +86,10 @@ std::vector<Prediction> readPredictions(const Database& database) {
     prediction.state = fromName(row.get<std::string>(9), PredictionState::kMerged);
     if (row.find<std::int64_t>(10)) prediction.settled = getTime(row, 10);
     prediction.mergedInto = findId<base::SubMapId>(row, 11);
-    prediction.T_submap_node = getPose(row, 12);
+    if (row.find<double>(12)) {
+      prediction.viewpoint_in_submap = {row.get<double>(12), row.get<double>(13), row.get<double>(14)};
+    }
+    prediction.T_submap_node = getPose(row, 15);
     predictions.push_back(std::move(prediction));
   }
   return predictions;

@@ -8,6 +8,7 @@
 #include <boost/graph/connected_components.hpp>
 #include <boost/graph/dijkstra_shortest_paths.hpp>
 #include <boost/graph/filtered_graph.hpp>
+#include <boost/property_map/function_property_map.hpp>
 
 #include <algorithm>
 #include <map>
@@ -192,33 +193,41 @@ int TopologicalGraph::componentCount() const {
 }
 
 std::optional<Route> TopologicalGraph::shortestRoute(base::SubMapId from, base::SubMapId to) const {
+  return shortestRoutes(from, {to}).front();
+}
+
+std::vector<std::optional<Route>> TopologicalGraph::shortestRoutes(base::SubMapId from,
+                                                                   const std::vector<base::SubMapId>& to) const {
   const auto& graph = impl_->graph;
   const Vertex start = impl_->vertex(from);
-  const Vertex goal = impl_->vertex(to);
-  std::map<Link, double> lengths;
-  for (auto [link, end] = boost::edges(graph); link != end; ++link) {
-    lengths[*link] = (graph[source(*link, graph)].T_map_submap.translation() -
-                      graph[target(*link, graph)].T_map_submap.translation())
-                         .norm();
-  }
+  const auto length = [&graph](const Link& link) {
+    return (graph[source(link, graph)].T_map_submap.translation() -
+            graph[target(link, graph)].T_map_submap.translation())
+        .norm();
+  };
   std::vector<double> distance(num_vertices(graph));
   std::vector<Vertex> before(num_vertices(graph));
   const auto index = get(boost::vertex_index, graph);
   const boost::filtered_graph<Graph, Passable> passable(graph, Passable{&graph});
-  dijkstra_shortest_paths(passable, goal,
-                          boost::weight_map(boost::make_assoc_property_map(lengths))
+  dijkstra_shortest_paths(passable, start,
+                          boost::weight_map(boost::make_function_property_map<Link>(length))
                               .distance_map(make_iterator_property_map(distance.begin(), index))
                               .predecessor_map(make_iterator_property_map(before.begin(), index)));
-  if (start != goal && before[start] == start) return std::nullopt;
-
-  Route route;
-  route.length = distance[start];
-  route.submaps.push_back(from);
-  for (Vertex at = start; at != goal; at = before[at]) {
-    route.edges.push_back(graph[edge(at, before[at], passable).first].id);
-    route.submaps.push_back(graph[before[at]].id);
-  }
-  return route;
+  const auto routeTo = [&](base::SubMapId id) -> std::optional<Route> {
+    const Vertex goal = impl_->vertex(id);
+    if (start != goal && before[goal] == goal) return std::nullopt;
+    Route route{.submaps = {id}, .edges = {}, .length = distance[goal]};
+    for (Vertex at = goal; at != start; at = before[at]) {
+      route.edges.push_back(graph[edge(before[at], at, passable).first].id);
+      route.submaps.push_back(graph[before[at]].id);
+    }
+    std::ranges::reverse(route.submaps);
+    std::ranges::reverse(route.edges);
+    return route;
+  };
+  std::vector<std::optional<Route>> routes;
+  for (const auto id : to) routes.push_back(routeTo(id));
+  return routes;
 }
 
 std::string_view toString(SubMapKind kind) {

@@ -3,6 +3,7 @@
 #include "prodomos/prediction/predictor.hpp"
 
 #include "prodomos/prediction/room_guess.hpp"
+#include "prodomos/prediction/viewpoint.hpp"
 
 #include "prediction/ledger.hpp"
 #include "prediction/space_behind.hpp"
@@ -21,7 +22,7 @@ using geometry::Pose3;
 using map::PredictionState;
 
 constexpr double kLeastSpace = 2.0;    // m²; what is smaller is no room
-constexpr double kMostlyUnseen = 1.5;  // m² not seen for one that was: less, and the room is known
+constexpr double kMostlyUnseen = 0.5;  // m² not seen for one that was: less, and the room is known
 constexpr double kLeastMove = 1e-3;    // metres, radians; what moves less need not be told
 constexpr double kStairsLead = 0.97;   // that a true flight leads somewhere
 constexpr double kPlacedAt = 0.1;      // metres, radians: how well a door's sub-map is known to lie behind it
@@ -68,6 +69,7 @@ void describe(base::ConfigVisitor& visitor, PredictionConfig& config) {
   visitor.section("bets", "on what lies beyond doors and stairs");
   visitor.key("enabled", config.enabled, "whether anything is predicted");
   visitor.key("least_probability", config.leastProbability, "", {0.0, 1.0}, "bets that are less likely are not made");
+  visitor.key("robot_radius", config.robotRadius, "m", {0.0, 2.0}, "room that a robot needs where it stands to enter");
   visitor.endSection();
   describe(visitor, config.extrapolation);
 }
@@ -167,6 +169,18 @@ std::optional<double> Predictor::shape(const World& world, const map::Entity& en
   return probabilityOf(entity, guess ? &*guess : nullptr);
 }
 
+/// Where to stand to go through, in the entity's sub-map.
+std::optional<geometry::Pose2> Predictor::viewpointOf(const World& world, const map::Entity& entity,
+                                                      const map::Node& submap, const Surroundings& around) const {
+  const Pose3 T_submap_near = prediction::T_submap_near(entity);
+  const Pose3 T_map_near = submap.T_map_submap * T_submap_near;
+  const bool isTheSame = isSame(T_map_near, around.T_map_here());
+  const auto viewpoint_in_near = viewpointBefore(
+      isTheSame ? around : Surroundings(T_map_near, world.gridsNear(T_map_near.translation())), config_.robotRadius);
+  if (!viewpoint_in_near) return std::nullopt;
+  return geometry::toPose2(T_submap_near) * *viewpoint_in_near;
+}
+
 void Predictor::bet(const World& world, const map::Entity& entity, const map::Node& submap) {
   const auto around = surroundingsOf(world, entity, submap);
   const auto space = spaceBehind(around, openingWidth(entity));
@@ -179,6 +193,7 @@ void Predictor::bet(const World& world, const map::Entity& entity, const map::No
   bet.prediction.id = newId();
   bet.prediction.cause = entity.id;
   bet.prediction.made = world.now;
+  bet.prediction.viewpoint_in_submap = viewpointOf(world, entity, submap, around);
   bet.node.id = bet.prediction.node = world.newNodeId();
   bet.node.kind = map::SubMapKind::kPredicted;
   bet.node.begin = bet.node.end = world.now;
@@ -200,9 +215,11 @@ void Predictor::follow(const World& world, const map::Entity& entity, const map:
   if (const auto within = submapWithin(space, around.T_map_here(), world.nodes)) {
     return settle(bet, PredictionState::kMerged, world, within);
   }
-  if (space.seen >= kLeastSpace && space.unseen < space.seen) return settle(bet, PredictionState::kConfirmed, world);
+  if (space.seen >= kLeastSpace && space.unseen < kMostlyUnseen * space.seen)
+    return settle(bet, PredictionState::kConfirmed, world);
   if (space.seen + space.unseen < kLeastSpace) return settle(bet, PredictionState::kRefuted, world);
   if (!shape(world, entity, around, bet.prediction)) return settle(bet, PredictionState::kRefuted, world);
+  bet.prediction.viewpoint_in_submap = viewpointOf(world, entity, submap, around);
   bet.edge.information = informationOf(entity);
   bet.isNews = true;
   place(bet, submap);

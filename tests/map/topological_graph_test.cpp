@@ -222,6 +222,14 @@ TEST(TopologicalGraph, RoutesAreAsShortAsFloydAndWarshallsAre) {
         }
         ASSERT_NEAR(length, route->length, 1e-9);
       }
+      const auto routes = both.graph.shortestRoutes(a, {ids.begin(), ids.end()});
+      ASSERT_EQ(routes.size(), ids.size());
+      for (std::size_t i = 0; i < ids.size(); ++i) {
+        const auto one = both.graph.shortestRoute(a, *std::next(ids.begin(), static_cast<std::ptrdiff_t>(i)));
+        ASSERT_EQ(routes[i].has_value(), one.has_value());
+        if (!one) continue;
+        ASSERT_EQ(routes[i]->submaps, one->submaps);
+      }
     }
   }
 }

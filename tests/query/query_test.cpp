@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prodomos/query/query.hpp"
 
+#include "prodomos/base/error.hpp"
 #include "prodomos/mapper/mapper.hpp"
 
 #include "support/laser_world.hpp"
@@ -81,7 +82,8 @@ TEST_F(SampleMapQuery, FindsTheShortestRoute) {
   ASSERT_TRUE(route);
   EXPECT_THAT(route->submaps, ElementsAre(SubMapId{1}, SubMapId{2}, SubMapId{3}));
   EXPECT_THAT(route->edges, SizeIs(2));
-  EXPECT_NEAR(route->length, 5.0 + 2.75, 1e-9);
+  EXPECT_NEAR(route->length, 5.0 + 2.75 + 0.65, 1e-9) << "from origin to origin, and on to the spot";
+  EXPECT_EQ(route->probability, 1.0);
 }
 
 TEST_F(SampleMapQuery, RoutesOverStairs) {
@@ -95,7 +97,14 @@ TEST_F(SampleMapQuery, NeedsNoEdgeWithinASubMap) {
   ASSERT_TRUE(route);
   EXPECT_THAT(route->submaps, ElementsAre(SubMapId{1}));
   EXPECT_THAT(route->edges, IsEmpty());
-  EXPECT_EQ(route->length, 0.0);
+  EXPECT_NEAR(route->length, std::hypot(0.5, 0.3), 1e-9);
+}
+
+TEST_F(SampleMapQuery, LeadsThroughPredictedRoomsAtTheirRisk) {
+  const auto route = routeBetween(view_, {0.0, 0.0, 0}, {10.5, 1.0, 0});
+  ASSERT_TRUE(route);
+  EXPECT_EQ(route->submaps.back(), SubMapId{6});
+  EXPECT_EQ(route->probability, 0.82);
 }
 
 TEST_F(SampleMapQuery, HasNoRouteToUnknownSpots) {
@@ -112,7 +121,10 @@ TEST_F(SampleMapQuery, TellsWhereToStandToEnterAPredictedRoom) {
   EXPECT_EQ(room.floor, 0);
   EXPECT_EQ(room.probability, 0.82);
   EXPECT_EQ(room.expectedArea, 11.5);
+  EXPECT_EQ(room.doorState, map::DoorState::kClosed);
   EXPECT_EQ(room.route, std::nullopt) << "nobody said from where";
+  EXPECT_EQ(room.gainPerMetre, std::nullopt);
+  EXPECT_FALSE(room.isViewpointFree) << "the map does not tell one";
   // The door is at x = 7.875, and its normal looks along x.
   EXPECT_NEAR(room.viewpoint_in_map.x, 7.075, 1e-9);
   EXPECT_NEAR(room.viewpoint_in_map.y, 0.0, 1e-9);
@@ -125,6 +137,7 @@ TEST_F(SampleMapQuery, TellsTheWayToAPredictedRoom) {
   ASSERT_THAT(rooms, SizeIs(1));
   ASSERT_TRUE(rooms[0].route);
   EXPECT_THAT(rooms[0].route->submaps, ElementsAre(SubMapId{3}, SubMapId{2}));
+  EXPECT_NEAR(*rooms[0].gainPerMetre, 0.82 * 11.5 / rooms[0].route->length, 1e-9);
   EXPECT_EQ(predictedRooms(view_, 0.0, Position{50, 50, 0}).at(0).route, std::nullopt);
 }
 
@@ -175,10 +188,85 @@ geometry::Pose2 viewpointBeforeStairs(double height) {
   std::get<map::Staircase>(stairs.attributes).height = height;
   auto prediction = test::SampleMap().view().predictions().at(0);
   prediction.cause = stairs.id;
+  prediction.submap = stairs.submap;
   change.predictions = {prediction};
   auto store = map::MapStore::inMemory();
   store.commit(change);
   return predictedRooms(store.view()).at(0).viewpoint_in_map;
+}
+
+TEST(PredictedRooms, AreEnteredFromWhereTheMapSays) {
+  auto change = sampleMapToBeChanged();
+  change.predictions = test::SampleMap().view().predictions();
+  change.predictions[0].viewpoint_in_submap = {1.5, 0.25, 0.5};
+  auto store = map::MapStore::inMemory();
+  store.commit(change);
+  const auto room = predictedRooms(store.view()).at(0);
+  EXPECT_TRUE(room.isViewpointFree);
+  EXPECT_EQ(room.viewpoint_in_map, (geometry::Pose2{6.5, 0.25, 0.5})) << "the sub-map lies at x = 5";
+}
+
+TEST(PredictedRooms, ComeByTheirGainPerMetre) {
+  auto change = sampleMapToBeChanged();
+  auto near = test::SampleMap().view().predictions().at(0);
+  near.probability = 0.5;
+  near.submap = {1};
+  near.viewpoint_in_submap = {1.0, 0.0, 0.0};
+  change.predictions.push_back(near);
+  auto far = near;
+  far.id = {2};
+  far.probability = 0.9;
+  far.viewpoint_in_submap = {6.0, 0.0, 0.0};
+  change.predictions.push_back(far);
+  auto unreachable = far;
+  unreachable.id = {3};
+  unreachable.submap = {5};  // no edges here
+  change.predictions.push_back(unreachable);
+  const auto grid = test::SampleMap().view().findLayer<map::OccupancyGrid>(SubMapId{1});
+  change.layers = {{SubMapId{1}, grid.get()}};
+  auto store = map::MapStore::inMemory();
+  store.commit(change);
+  const auto idsOf = [](const std::vector<PredictedRoom>& rooms) {
+    std::vector<std::int64_t> ids;
+    for (const auto& room : rooms) ids.push_back(room.prediction.value);
+    return ids;
+  };
+  EXPECT_THAT(idsOf(predictedRooms(store.view(), 0.0, Position{0, 0, 0})), ElementsAre(1, 2, 3));
+  EXPECT_THAT(idsOf(predictedRooms(store.view())), ElementsAre(2, 3, 1)) << "by probability, where nobody walks";
+}
+
+TEST_F(SampleMapQuery, TellsTheFreeFloorOfAPredictedRoom) {
+  const auto rooms = predictedRooms(view_);
+  ASSERT_THAT(rooms.at(0).freeFloor, SizeIs(2));
+  EXPECT_EQ(rooms[0].freeFloor[0].threshold, 0.5);
+  EXPECT_NEAR(rooms[0].freeFloor[0].area, 3.7 * 4.0, 1e-9);
+  const auto floor = freeFloor(view_, {6}, 0.7);
+  ASSERT_THAT(floor, SizeIs(1));
+  EXPECT_NEAR(floor[0].area, 2.8 * 2.4, 1e-9);
+  EXPECT_NEAR(floor[0].outline_in_map.at(0).x(), 9.25 - 1.2, 1e-9);
+  EXPECT_THAT(freeFloor(view_, {1}, 0.5), IsEmpty());
+  EXPECT_THROW(freeFloor(view_, {6}, 0.55), base::UsageError);
+}
+
+TEST_F(SampleMapQuery, TellsDoorsStairsAndPeople) {
+  const auto doorsSeen = doors(view_);
+  ASSERT_THAT(doorsSeen, SizeIs(2));
+  EXPECT_EQ(doorsSeen[1].id.value, 2);
+  EXPECT_EQ(doorsSeen[1].floor, 0);
+  EXPECT_NEAR(doorsSeen[1].T_map_entity.translation().x(), 7.875, 1e-9);
+  EXPECT_THAT(stairs(view_), SizeIs(1));
+  ASSERT_THAT(people(view_), SizeIs(1));
+  EXPECT_EQ(people(view_)[0].submap, SubMapId{3});
+  const auto& submap = view_.graph().getNode({3});
+  EXPECT_TRUE(people(view_)[0].T_map_entity.translation().isApprox(submap.T_map_submap * Eigen::Vector3d(1, 1, 0)));
+}
+
+TEST(Doors, ThatWereGivenUpAreNotTold) {
+  auto change = sampleMapToBeChanged();
+  change.entities.at(1).confidence = 0.0;
+  auto store = map::MapStore::inMemory();
+  store.commit(change);
+  EXPECT_THAT(doors(store.view()), SizeIs(1));
 }
 
 TEST(PredictedRooms, AreEnteredFromTheNearEndOfTheirStairs) {

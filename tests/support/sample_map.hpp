@@ -153,9 +153,9 @@ class SampleMap {
                                     .outline_in_node = {{-1.2, -1.2}, {1.6, -1.2}, {1.6, 1.2}, {-1.2, 1.2}}};
     change.predictions.push_back({.id = {1},
                                   .cause = {2},
-                                  .submap = {1},
+                                  .submap = {2},
                                   .node = {6},
-                                  .T_submap_node = geometry::toPose3({9.25, 0, 0}),
+                                  .T_submap_node = geometry::toPose3({4.25, 0, 0}),
                                   .probability = 0.82,
                                   .expectedArea = 11.5,
                                   .areas = {wide, narrow},

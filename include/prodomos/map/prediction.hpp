@@ -33,6 +33,8 @@ struct Prediction {
   double expectedArea = 0.0;  ///< m²
   std::vector<PredictedArea> areas;
   std::vector<Eigen::Vector2d> room_in_node;  ///< outline of the room that is likely there; empty: not guessed
+  /// Where to stand to go there, on free floor and facing the way; none where no such floor is known.
+  std::optional<geometry::Pose2> viewpoint_in_submap;
   base::Time made{};
   PredictionState state = PredictionState::kOpen;
   std::optional<base::Time> settled;

@@ -103,6 +103,8 @@ class TopologicalGraph {
   int componentCount() const;
   /// The shortest by distance between origins (Dijkstra), overlaps apart; none where the two are not connected.
   std::optional<Route> shortestRoute(base::SubMapId from, base::SubMapId to) const;
+  /// To each of them, at little more than the cost of one.
+  std::vector<std::optional<Route>> shortestRoutes(base::SubMapId from, const std::vector<base::SubMapId>& to) const;
 
  private:
   struct Impl;

@@ -50,6 +50,8 @@ class Predictor {
   std::optional<double> shape(const World& world, const map::Entity& entity, const Surroundings& around,
                               map::Prediction& prediction);
   void place(Bet& bet, const map::Node& submap);
+  std::optional<geometry::Pose2> viewpointOf(const World& world, const map::Entity& entity, const map::Node& submap,
+                                             const Surroundings& around) const;
   Surroundings surroundingsOf(const World& world, const map::Entity& entity, const map::Node& submap) const;
 
   PredictionConfig config_;
