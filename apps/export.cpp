@@ -17,6 +17,7 @@ struct ExportOptions {
   std::string map;
   std::string format;
   std::string output;
+  bool social = false;
 };
 
 void exportMap(const ExportOptions& options) {
@@ -26,11 +27,15 @@ void exportMap(const ExportOptions& options) {
     for (const auto& each : exporter::exporters()) known += (known.empty() ? "" : ", ") + std::string(each.format);
     throw base::UsageError(base::expectedFound("FORMAT", "one of " + known, "'" + options.format + "'"));
   }
+  if (options.social && exporter->writeSocial == nullptr) {
+    throw base::UsageError("--social: people's space is no part of " + options.format + ", of nav2 it is");
+  }
   const auto view = map::MapView::open(options.map);
   std::filesystem::path output = options.output;
   if (output.empty()) output = std::filesystem::path(options.map).replace_extension(exporter->extension);
   requireOtherFile("-o", output, options.map, "the map itself");
   exporter->write(view, output);
+  if (options.social) exporter->writeSocial(view, output);
   std::cout << output.string() << '\n';
 }
 
@@ -51,6 +56,7 @@ void addExport(CLI::App& program) {
   command->add_option("MAP", options->map, "the map file")->required();
   command->add_option("FORMAT", options->format, "what to write")->required();
   command->add_option("-o,--output", options->output, "where to; beside the map if not given");
+  command->add_flag("--social", options->social, "nav2: people's space too, as a cost of its own");
   command->callback([options] { exportMap(*options); });
 }
 

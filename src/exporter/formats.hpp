@@ -19,6 +19,8 @@ void writeDot(const map::MapView& view, const Path& path);
 void writeJson(const map::MapView& view, const Path& path);
 void writeGeojson(const map::MapView& view, const Path& path);
 void writeNav2(const map::MapView& view, const Path& path);
+/// People's space as a cost, beside what writeNav2() writes.
+void writeNav2Social(const map::MapView& view, const Path& path);
 void writeG2o(const map::MapView& view, const Path& path);
 void writePly(const map::MapView& view, const Path& path);
 void writeScene3d(const map::MapView& view, const Path& path);

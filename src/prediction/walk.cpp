@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prodomos/prediction/walk.hpp"
 
+#include "prodomos/map/personal_space.hpp"
 #include "prodomos/prediction/extrapolation.hpp"
 
 #include "prediction/free_floor.hpp"
@@ -44,12 +45,6 @@ Walk::State stateOf(const map::TrackState& state) {
   return {state.time, geometry::toPose2(state.T_submap_thing), velocity.head<2>()};
 }
 
-/// 002 eq. (5): personal space, wider on the side that is not the dominant one.
-geometry::SkewNormal personalSpace(const Pose2& T_here_person, int dominantSide, const ExtrapolationConfig& config) {
-  const Eigen::Vector2d left(-std::sin(T_here_person.theta), std::cos(T_here_person.theta));
-  return {{T_here_person.x, T_here_person.y}, config.personSigma, config.personSkew * dominantSide * left};
-}
-
 /// Claims along a person's way, place by place.
 class Way {
  public:
@@ -89,7 +84,8 @@ class Way {
  private:
   void claimAbout(const Pose2& T_here_person) {
     addClaimsAbout({T_here_person.x, T_here_person.y}, around_,
-                   personalSpace(T_here_person, walk_.dominantSide, config_), claims_);
+                   map::personalSpace(T_here_person, walk_.dominantSide, config_.personSigma, config_.personSkew),
+                   claims_);  // 002 eq. (5)
   }
 
   const Walk& walk_;

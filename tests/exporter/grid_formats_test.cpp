@@ -84,6 +84,66 @@ TEST(Nav2, KnowsNothingOfWhatIsPredicted) {
   EXPECT_NEAR(yaml["origin"][0].as<double>() + pgm.width * 0.25, 8.0, 1e-9);  // the closed door's wall is the end
 }
 
+/// Somebody at the origin of a hall, heading along x, with a wall on the left.
+struct HallWithPerson {
+  explicit HallWithPerson(int dominantSide) {
+    std::vector<std::string> lines(81, std::string(81, '.'));
+    lines[30] = std::string(81, '#');  // y = 0.5 m
+    const auto grid = test::gridFromText({lines.begin(), lines.end()}, 0.05, {-40, -40});
+    map::Entity person;
+    person.id = {1};
+    person.submap = {1};
+    person.attributes = map::Human{.dominantSide = dominantSide};
+    map::MapChange change;
+    change.sessions = {{.id = {1}, .log = "log", .config = ""}};
+    change.floors = {{0, 0.0}};
+    change.nodes.resize(1);
+    change.nodes[0].id = {1};
+    change.nodes[0].session = {1};
+    change.nodes[0].floor = 0;
+    change.entities = {person};
+    change.layers = {{base::SubMapId{1}, &grid}};
+    store.commit(change);
+  }
+
+  map::MapStore store = map::MapStore::inMemory();
+};
+
+TEST(Nav2, TellsPeoplesSpaceAsACostOfItsOwn) {
+  const HallWithPerson hall(1);
+  const test::TemporaryFolder folder;
+  ASSERT_NE(findExporter("nav2")->writeSocial, nullptr);
+  findExporter("nav2")->writeSocial(hall.store.view(), folder.path() / "map.yaml");
+  const auto yaml = YAML::Load(test::readFile(folder.path() / "map_social.yaml"));
+  const auto pgm = parsePgm(test::readFile(folder.path() / "map_social.pgm"));
+  EXPECT_EQ(yaml["image"].as<std::string>(), "map_social.pgm");
+  EXPECT_EQ(yaml["mode"].as<std::string>(), "scale");
+  EXPECT_EQ(yaml["occupied_thresh"].as<double>(), 1.0);
+  EXPECT_EQ(yaml["free_thresh"].as<double>(), 0.0);
+  // As map_server reads it.
+  const auto costAt = [&](double x, double y) {
+    const auto column = static_cast<int>((x - yaml["origin"][0].as<double>()) / 0.05);
+    const auto row = static_cast<int>((y - yaml["origin"][1].as<double>()) / 0.05);
+    return std::round(100.0 * (255 - pgm.at(column, pgm.height - 1 - row)) / 255.0);
+  };
+  EXPECT_GT(costAt(0.02, 0.02), 70);
+  EXPECT_NEAR(costAt(0.62, 0.02), costAt(-0.62, 0.02), 1) << "the same ahead and behind";
+  EXPECT_GT(costAt(0.02, 0.32), costAt(0.02, -0.32)) << "the dominant side is the right one";
+  EXPECT_GT(costAt(0.02, 0.42), 50);
+  EXPECT_EQ(costAt(0.02, 0.72), 0) << "behind the wall";
+  EXPECT_EQ(costAt(0.02, -1.6), 0);
+}
+
+TEST(Nav2, HasNoPersonWhereThereIsNone) {
+  const test::SampleMap sample;
+  const test::TemporaryFolder folder;
+  findExporter("nav2")->writeSocial(sample.view(), folder.path() / "map.yaml");
+  const auto office = parsePgm(test::readFile(folder.path() / "map_floor0_social.pgm"));
+  const auto upstairs = parsePgm(test::readFile(folder.path() / "map_floor1_social.pgm"));
+  EXPECT_NE(office.pixels.find_first_not_of('\xff'), std::string::npos);
+  EXPECT_EQ(upstairs.pixels.find_first_not_of('\xff'), std::string::npos);
+}
+
 TEST(Nav2, NamesTheFilesOfASingleFloorAsTold) {
   auto store = map::MapStore::inMemory();
   const auto grid = test::gridFromText({"#.#", "#  "}, 0.05);

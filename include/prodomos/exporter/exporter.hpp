@@ -18,6 +18,8 @@ struct Exporter {
   std::string_view text;       ///< one line for --help
   /// Writes the file (or several beside it: one a floor). Throws base::FileError. Same map, same bytes.
   void (*write)(const map::MapView& view, const std::filesystem::path& path);
+  /// Writes people's space beside it (the social level of 002); null: the format has no place for it.
+  void (*writeSocial)(const map::MapView& view, const std::filesystem::path& path) = nullptr;
 };
 
 std::span<const Exporter> exporters();
