@@ -31,6 +31,7 @@ void saveEdge(base::ByteWriter& out, const map::Edge& edge) {
   out << edge.id.value << edge.from.value << edge.to.value << edge.kind;
   savePose(out, edge.T_from_to);
   saveMatrix(out, edge.information);
+  out << edge.cause.has_value() << edge.cause.value_or(base::EntityId{}).value;
 }
 
 map::Edge loadEdge(base::ByteReader& in) {
@@ -38,6 +39,9 @@ map::Edge loadEdge(base::ByteReader& in) {
   in >> edge.id.value >> edge.from.value >> edge.to.value >> edge.kind;
   edge.T_from_to = loadPose(in);
   loadMatrix(in, edge.information);
+  const bool hasCause = in.read<bool>();
+  const base::EntityId cause{in.read<std::int64_t>()};
+  if (hasCause) edge.cause = cause;
   return edge;
 }
 

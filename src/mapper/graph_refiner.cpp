@@ -135,6 +135,23 @@ std::vector<base::SubMapId> GraphRefiner::nodesOf(base::SessionId session) const
   return ids;
 }
 
+std::vector<map::Edge> GraphRefiner::waysOf(base::SessionId session) const {
+  std::vector<map::Edge> ways;
+  for (const auto& tie : ties_) {
+    if (!isFound(tie.edge) && node(tie.edge.from).session == session) ways.push_back(tie.edge);
+  }
+  return ways;
+}
+
+void GraphRefiner::rename(const map::Edge& way) {
+  const auto tie = std::ranges::lower_bound(ties_, way.id, {}, [](const Tie& known) { return known.edge.id; });
+  if (tie == ties_.end() || tie->edge.id != way.id) throw base::Error("expected way " + toString(way.id));
+  if (tie->edge.kind == way.kind && tie->edge.cause == way.cause) return;
+  tie->edge.kind = way.kind;
+  tie->edge.cause = way.cause;
+  tie->isTold = false;
+}
+
 std::vector<map::Node> GraphRefiner::nodes() const {
   std::vector<map::Node> nodes;
   for (const auto& vertex : vertices_) nodes.push_back(vertex.node);

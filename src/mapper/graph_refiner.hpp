@@ -32,6 +32,11 @@ class GraphRefiner {
   /// Moves all sub-maps of a session, as a whole.
   void move(base::SessionId session, const geometry::Pose3& T_after_before);
 
+  /// Ways between sub-maps of the session, by id.
+  std::vector<map::Edge> waysOf(base::SessionId session) const;
+  /// Kind and cause of a way are those now.
+  void rename(const map::Edge& way);
+
   const map::Node& node(base::SubMapId id) const;
   const geometry::Pose3& T_map_submap(base::SubMapId id) const;
   /// All, by id.

@@ -5,6 +5,7 @@
 #include "prodomos/perception/perception.hpp"
 #include "prodomos/prediction/predictor.hpp"
 
+#include "mapper/crossings.hpp"
 #include "mapper/floor_tracker.hpp"
 #include "mapper/graph_bytes.hpp"
 #include "mapper/graph_refiner.hpp"
@@ -16,6 +17,7 @@
 
 #include <cmath>
 #include <deque>
+#include <map>
 
 namespace prodomos::mapper {
 
@@ -23,6 +25,10 @@ namespace {
 
 /// A camera or robot whose recorded height is beyond this stands in a world whose floor is not z = 0.
 constexpr double kMostClearance = 2.5;
+
+constexpr double kDoorStep = 0.25;   // metres travelled between two looks whether a door was passed
+constexpr double kBeyondDoor = 0.4;  // metres from a door, where the next sub-map may begin
+constexpr double kLeastWay = 1.5;    // metres; shorter sub-maps show too little to be found again
 
 // A reading waits for a pose at or after its own stamp; not longer than this, so that a log without odometry flows too.
 constexpr std::size_t kMostWaiting = 64;
@@ -101,6 +107,13 @@ class Mapper::Impl {
   }
 
   void refine();
+  std::vector<Passage> passages() const { return passagesOf(perception_->entities(), submapPoses()); }
+  /// Of the robot's feet in the sub-map, on from its origin.
+  std::vector<Eigen::Vector3d> way_in_map(base::SubMapId submap, std::vector<Eigen::Vector3d> way_in_submap) const;
+  /// Does the robot stand beyond a door that it came through since the running sub-map began?
+  bool hasPassedDoor();
+  /// Doors may be found after they were passed: tells all ways once more what they lead through.
+  void nameWays();
   /// For doorways, in a finished sub-map and what lies about it.
   void lookAround(base::SubMapId submap);
   /// Bets on what lies beyond, as far as the finished sub-map told anything new; everywhere, where none is named.
@@ -282,11 +295,12 @@ void Mapper::Impl::travelTo(const Localizer::Located& located, const sensors::Re
     passOn(map::EdgeKind::kTravelled, T_travel_body, reading.time);
   } else if (const auto way = floors_.update(heightAt(T_travel_body), session_.distance)) {
     passOn(*way, T_travel_body, reading.time);
+  } else if (hasPassedDoor()) {
+    passOn(map::EdgeKind::kDoor, T_travel_body, reading.time);
   } else if (running_->isLeftBy({.reading = reading, .T_submap_body = running_->T_submap_body(T_travel_body)},
                                 config_.submap)) {
     passOn(map::EdgeKind::kTravelled, T_travel_body, reading.time);
   }
-  // Doors and stairs crossed, once they are detected, are one more reason to pass on, with the entity as its cause.
 }
 
 /// The map frame: below the robot where it was first placed, x its heading, z up. A further session begins beside the
@@ -319,7 +333,10 @@ void Mapper::Impl::passOn(map::EdgeKind kind, const geometry::Pose3& T_travel_bo
   perception_->finish(running_->submap());
   lookAround(running_->node().id);
   const auto node = nodeBelow(T_travel_body, time);
-  const auto edge = edgeBetween(*running_, node, kind);
+  auto edge = edgeBetween(*running_, node, kind);
+  auto way = way_in_map(running_->node().id, running_->way_in_submap());
+  way.push_back(node.T_map_submap.translation());
+  nameWay(edge, way, passages());
   map::MapChange change;
   perception_->addTo(change);
   predict(running_->node().id, change.tracks);
@@ -351,6 +368,37 @@ void Mapper::Impl::refine() {
   const auto timing = times.measure("refine");
   refiner_.close(running_->submap());
   running_->refine(refiner_.T_map_submap(running_->node().id));
+}
+
+std::vector<Eigen::Vector3d> Mapper::Impl::way_in_map(base::SubMapId submap,
+                                                      std::vector<Eigen::Vector3d> way_in_submap) const {
+  for (auto& body : way_in_submap) body.z() -= clearance_;
+  way_in_submap.insert(way_in_submap.begin(), Eigen::Vector3d::Zero());
+  for (auto& foot : way_in_submap) foot = refiner_.T_map_submap(submap) * foot;
+  return way_in_submap;
+}
+
+bool Mapper::Impl::hasPassedDoor() {
+  if (running_->node().distance < kLeastWay || !running_->isTimeToLookForDoors(kDoorStep)) return false;
+  const auto way = way_in_map(running_->node().id, running_->way_in_submap());
+  const auto crossed = doorCrossed(way, passages());
+  return crossed && crossed->beyond >= kBeyondDoor;
+}
+
+void Mapper::Impl::nameWays() {
+  std::map<base::SubMapId, std::vector<Eigen::Vector3d>> ways_in_submap;
+  for (const auto& point : store_.view().trajectory()) {
+    if (point.session != session_.id) continue;
+    const geometry::Pose3 T_submap_travel = refiner_.node(point.submap).T_travel_submap.inverse();
+    ways_in_submap[point.submap].push_back((T_submap_travel * point.T_travel_body).translation());
+  }
+  const auto known = passages();
+  for (auto& edge : refiner_.waysOf(session_.id)) {
+    auto way = way_in_map(edge.from, ways_in_submap[edge.from]);
+    way.push_back(refiner_.T_map_submap(edge.to).translation());
+    nameWay(edge, way, known);
+    refiner_.rename(edge);
+  }
 }
 
 void Mapper::Impl::lookAround(base::SubMapId submap) {
@@ -427,6 +475,7 @@ void Mapper::Impl::finish(const sensors::EndOfLog& end) {
     perception_->finish(running_->submap());
     // Once more everywhere: by now the neighbours are known on all sides, and all poses are the best.
     for (const auto submap : refiner_.nodesOf(session_.id)) lookAround(submap);
+    nameWays();
     perception_->addTo(change);
     predict(std::nullopt, change.tracks);
   }

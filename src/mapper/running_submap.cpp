@@ -38,6 +38,18 @@ bool RunningSubMap::isLeftBy(const map::PlacedReading& placed, const SubMapConfi
   return false;
 }
 
+std::vector<Eigen::Vector3d> RunningSubMap::way_in_submap() const {
+  std::vector<Eigen::Vector3d> way;
+  for (const auto& point : trajectory_) way.push_back(T_submap_body(point.T_travel_body).translation());
+  return way;
+}
+
+bool RunningSubMap::isTimeToLookForDoors(double step) {
+  if (submap_.node.distance - wayAtLastDoors_ < step) return false;
+  wayAtLastDoors_ = submap_.node.distance;
+  return true;
+}
+
 bool RunningSubMap::integrate(const map::PlacedReading& placed, const geometry::Pose3& T_travel_body,
                               base::StageTimes& times) {
   bool taken = false;

@@ -31,6 +31,10 @@ class RunningSubMap {
   /// Where it lies as its poses are refined.
   void refine(const geometry::Pose3& T_map_submap) { submap_.node.T_map_submap = T_map_submap; }
   const map::SubMap& submap() const { return submap_; }
+  /// Where the robot was at each reading; positions of its body.
+  std::vector<Eigen::Vector3d> way_in_submap() const;
+  /// Metres travelled since this was asked last, or since the sub-map began, are at least so many.
+  bool isTimeToLookForDoors(double step);
   /// Is this reading's place a sub-map of its own (002 §II-A)?
   bool isLeftBy(const map::PlacedReading& placed, const SubMapConfig& config);
   /// False where no layer takes anything from the reading.
@@ -55,6 +59,7 @@ class RunningSubMap {
   // seen a moment before.
   std::optional<map::OccupancyGrid> seenAtBegin_;
   double wayAtLastLook_ = 0.0;
+  double wayAtLastDoors_ = 0.0;
   double turnAtLastLook_ = 0.0;
 };
 

@@ -63,6 +63,7 @@ TEST(GraphBytes, BringBackEdges) {
   edge.from = {2};
   edge.to = {9};
   edge.kind = map::EdgeKind::kOverlap;
+  edge.cause = base::EntityId{7};
   edge.T_from_to = kPose;
   edge.information = map::Matrix6::Random();
   base::ByteWriter out;
@@ -74,6 +75,7 @@ TEST(GraphBytes, BringBackEdges) {
   EXPECT_EQ(again.from, edge.from);
   EXPECT_EQ(again.to, edge.to);
   EXPECT_EQ(again.kind, edge.kind);
+  EXPECT_EQ(again.cause, edge.cause);
   EXPECT_EQ(again.T_from_to.matrix(), edge.T_from_to.matrix());
   EXPECT_EQ(again.information, edge.information);
 }
