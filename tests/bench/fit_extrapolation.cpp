@@ -286,19 +286,20 @@ void addPeople(simulation::Building building, const prediction::ExtrapolationCon
   for (const auto& person : building.people) {
     if (person.sits || person.storey != 0) continue;
     for (double time = 1.0; time < kDuration; time += 3.0) {
+      const Eigen::Vector2d origin = simulation::positionAt(person, time);  // of the sub-map
       prediction::Walk walk{.left = true};
       for (double seen = time - kWatched; seen <= time; seen += 0.1) {
         const auto position = simulation::positionAt(person, seen);
         const Eigen::Vector2d step = position - simulation::positionAt(person, seen - 0.1);
         walk.states.push_back({base::fromNanoseconds(0) + base::fromSeconds(seen),
-                               {position.x(), position.y(), std::atan2(step.y(), step.x())},
+                               {position.x() - origin.x(), position.y() - origin.y(), std::atan2(step.y(), step.x())},
                                step / 0.1});
       }
       if (prediction::paceAtEnd(walk).norm() < 0.5) continue;
       const auto around = prediction::Surroundings();
       const auto told = timed(table, [&] { return prediction::extrapolate(walk, around, config); });
       for (const auto& strip : std::get<prediction::ConditionalFloor>(told).strips) {
-        table.add(plan, nothing, geometry::Pose3::Identity(), strip);
+        table.add(plan, nothing, geometry::toPose3({origin.x(), origin.y(), 0.0}), strip);
       }
     }
   }

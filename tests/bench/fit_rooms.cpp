@@ -43,7 +43,7 @@ struct Lessons {
     for (const bool mirrored : {false, true}) {
       prediction::RoomFeatures features(from.around, from.door->width, mirrored);
       space.add(features.ofSpace(prediction::areaOf(reachable)), from.isUnseen);
-      if (!from.hasUnseenRoom()) continue;
+      if (!from.isClosed || !from.hasUnseenRoom()) continue;
       const float weight = from.area > evaluation::kLargestRoom ? kLargeRoom : 1.0F;
       const double own = mirrored ? from.bestBox.right : from.bestBox.left;
       const double other = mirrored ? from.bestBox.left : from.bestBox.right;

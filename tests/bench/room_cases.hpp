@@ -48,12 +48,13 @@ struct RoomCase {
   geometry::Pose2 T_world_here;
   std::shared_ptr<const test::SeenWorld> world;
   prediction::Surroundings around;
+  bool isClosed = true;           ///< the door; else one may look in
   bool isUnseen = false;          ///< nobody was in the room, and at least 2 m² of it are unknown
   evaluation::DoorBox bestBox{};  ///< of an unseen room
   double area = 0.0;              ///< m², of the room
 
   bool hasUnseenRoom() const { return isUnseen && room != nullptr && room->use == simulation::RoomUse::kRoom; }
-  bool isOrdinary() const { return hasUnseenRoom() && area <= evaluation::kLargestRoom; }
+  bool isOrdinary() const { return isClosed && hasUnseenRoom() && area <= evaluation::kLargestRoom; }
   evaluation::DoorView view() const {
     const auto isKnown = [this](const Eigen::Vector2d& point) { return world->at(point) != map::CellState::kUnknown; };
     return {T_world_here, room->outline, isKnown, test::kPlanResolution};
@@ -99,23 +100,25 @@ class CaseMaker {
 
   using Visit = std::function<void(RoomCase&&)>;
 
-  /// Closed doors with a seen room in front, in the order of the plan.
+  /// Doors with a seen room in front, in the order of the plan: closed ones, for the laser also open and ajar ones.
   void visit(double shareSeen, std::uint64_t draw, Knowledge knowledge, const Visit& visit) {
     const auto seed = static_cast<std::uint64_t>(100 * shareSeen) + 1000 * draw;
     base::Random random(seed, "room cases " + plan_.name);
     const auto& building = plan_.building;
     const auto seen = test::drawSeen(building, shareSeen, seed);
     const bool isLaser = knowledge == Knowledge::kLaser;
-    std::vector<bool> isOpen;
-    for (const auto& door : building.doors) isOpen.push_back(door.leaves == 0 || (isLaser && random.uniform() < kOpen));
-    const auto world = std::make_shared<const test::SeenWorld>(isLaser ? laserWorld(seen, isOpen, random)
+    std::vector<double> gaps;
+    for (const auto& door : building.doors) gaps.push_back(door.leaves == 0 ? 1.0 : isLaser ? drawGap(random) : 0.0);
+    const auto world = std::make_shared<const test::SeenWorld>(isLaser ? laserWorld(seen, gaps, random)
                                                                        : test::wholeRooms(building, seen));
     for (std::size_t i = 0; i < building.doors.size(); ++i) {
       for (const std::size_t far : {0U, 1U}) {
         const auto& door = building.doors[i];
         const int near = door.rooms[1 - far];
-        if (isOpen[i] || near == simulation::kOutside || !seen[static_cast<std::size_t>(near)]) continue;
-        RoomCase made{.plan = &plan_, .door = &door, .knowledge = knowledge, .world = world};
+        if (near == simulation::kOutside || !seen[static_cast<std::size_t>(near)]) continue;
+        const bool isClosed = gaps[i] == 0.0;
+        if (!isClosed && !isLaser) continue;
+        RoomCase made{.plan = &plan_, .door = &door, .knowledge = knowledge, .world = world, .isClosed = isClosed};
         made.T_world_here = test::poseTowards(door, far);
         if (!isFreeAhead(made, -0.6)) continue;
         const int room = door.rooms[far];
@@ -133,15 +136,24 @@ class CaseMaker {
 
  private:
   static constexpr double kOpen = 0.2;         // share of doors that stand open when the laser passes
+  static constexpr double kAjar = 0.25;        // … that show a part of their opening
   static constexpr double kFurnished = 0.5;    // share of states in which things stand about
   static constexpr double kMissed = 0.33;      // share of other doors that the robot did not find
   static constexpr double kLeastUnseen = 2.0;  // m²
 
-  test::SeenWorld laserWorld(const std::vector<bool>& seen, const std::vector<bool>& isOpen,
+  static double drawGap(base::Random& random) {
+    const double draw = random.uniform();
+    if (draw < kOpen) return 1.0;
+    const double gap = random.uniform(0.1, 0.7);
+    if (draw < kOpen + kAjar) return random.uniform() < 0.5 ? gap : -gap;
+    return 0.0;
+  }
+
+  test::SeenWorld laserWorld(const std::vector<bool>& seen, const std::vector<double>& gaps,
                              base::Random& random) const {
     const test::LaserRounds::Options options{.spacing = 1.5, .range = random.uniform(8.0, 25.0), .peeked = 0.5};
     const auto& building = random.uniform() < kFurnished ? plan_.furnished : plan_.building;
-    return test::LaserRounds(building, isOpen).seenFrom(plan_.building, seen, options, random);
+    return test::LaserRounds(building, gaps).seenFrom(plan_.building, seen, options, random);
   }
 
   static bool isFreeAhead(const RoomCase& made, double metres) {

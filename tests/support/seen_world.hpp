@@ -80,7 +80,8 @@ class LaserRounds {
     double peeked = 0.5;   ///< share of the seen rooms, corridors apart, that were seen from one place alone
   };
 
-  LaserRounds(const simulation::Building& building, const std::vector<bool>& isOpen) {
+  /// `gaps`: how much of each door's width is open: 0 nothing, 1 all, 0.3 at its left, -0.3 at its right.
+  LaserRounds(const simulation::Building& building, const std::vector<double>& gaps) {
     std::vector<geometry::Polygon> outlines;
     for (const auto& room : building.rooms) outlines.push_back(room.outline);
     const auto box = geometry::boxOf(outlines, kResolution);
@@ -92,7 +93,9 @@ class LaserRounds {
       const auto& door = building.doors[i];
       const double half = 0.5 * door.wallThickness + 0.06;
       areas_.fill(rectangle(door.pose, half, 0.5 * door.width), kOpening, kResolution);
-      if (!isOpen[i]) areas_.fill(rectangle(door.pose, 0.04, 0.5 * door.width + 0.1), kSolid, kResolution);
+      const double shut = (1.0 - std::abs(gaps[i])) * door.width + 0.2;  // into the jambs
+      const geometry::Pose2 aside{0.0, -0.5 * gaps[i] * door.width, 0.0};
+      if (std::abs(gaps[i]) < 1.0) areas_.fill(rectangle(door.pose * aside, 0.04, 0.5 * shut), kSolid, kResolution);
     }
     for (const auto& thing : building.things) {
       if (thing.T_world_thing.translation().z() - 0.5 * thing.size.z() > 0.5) continue;  // it hangs
