@@ -18,6 +18,8 @@ constexpr base::Duration kLongestGap = std::chrono::milliseconds(500);
 /// What a radian of heading counts against a metre of position.
 constexpr double kMetresPerRadian = 1.0;
 
+constexpr double kSameStorey = 1.0;  // metres between its floor and what lies on it
+
 /// A pose and the true one of the same time.
 using PosePair = std::pair<geometry::Pose3, geometry::Pose3>;
 
@@ -49,6 +51,17 @@ geometry::Pose3 levelAlignment(const std::vector<PosePair>& pairs) {
   }
   const auto T_true_estimated = geometry::fromYawPitchRoll(Eigen::Vector3d::Zero(), std::atan2(sine, cosine), 0.0, 0.0);
   return Eigen::Translation3d(trueMean - T_true_estimated * estimatedMean) * T_true_estimated;
+}
+
+std::vector<double> floorsOf(const Truth& truth) {
+  std::vector<double> floors_z;
+  for (const auto& storey : truth.storeys) floors_z.push_back(storey.floor_z);
+  return floors_z;
+}
+
+int indexOfNearest(const std::vector<double>& floors_z, double z) {
+  const auto nearest = std::ranges::min_element(floors_z, {}, [z](double floor_z) { return std::abs(floor_z - z); });
+  return nearest == floors_z.end() ? 0 : static_cast<int>(nearest - floors_z.begin());
 }
 
 std::string spanOf(const std::vector<TimedPose>& poses) {
@@ -96,9 +109,34 @@ std::map<base::SubMapId, geometry::Pose3> truthFromSubMaps(const map::MapView& v
 }
 
 int storeyAt(const Truth& truth, double z) {
-  const auto distance = [z](const TrueStorey& storey) { return std::abs(storey.floor_z - z); };
-  const auto nearest = std::ranges::min_element(truth.storeys, {}, distance);
-  return nearest == truth.storeys.end() ? 0 : static_cast<int>(nearest - truth.storeys.begin());
+  return indexOfNearest(floorsOf(truth), z);
+}
+
+int Placement::storeyAt(double z) const {
+  return indexOfNearest(floors_z, z);
+}
+
+std::optional<int> Placement::modelledStoreyAt(double z) const {
+  const int storey = storeyAt(z);
+  const auto index = static_cast<std::size_t>(storey);
+  if (index >= floors_z.size() || std::abs(floors_z[index] - z) > kSameStorey) return std::nullopt;
+  return storey;
+}
+
+Placement placementOf(const map::MapView& view, const Truth& truth) {
+  return {truthFromSubMaps(view, truth), floorsOf(truth)};
+}
+
+Placement placementOf(const map::MapView& view) {
+  Placement placement;
+  for (const auto id : view.graph().nodes()) {
+    const auto& node = view.graph().getNode(id);
+    if (node.kind == map::SubMapKind::kObserved) placement.T_world_submap[id] = node.T_map_submap;
+  }
+  for (const auto& floor : view.floors()) placement.floors_z.push_back(floor.height);
+  if (placement.floors_z.empty()) placement.floors_z.push_back(0.0);
+  std::ranges::sort(placement.floors_z);
+  return placement;
 }
 
 }  // namespace prodomos::evaluation

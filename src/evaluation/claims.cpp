@@ -2,19 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prodomos/evaluation/claims.hpp"
 
-#include "prodomos/evaluation/alignment.hpp"
-
 #include <algorithm>
-#include <cmath>
 
 namespace prodomos::evaluation {
 
 namespace {
 
 using geometry::transformed;
-using Frames = std::map<base::SubMapId, geometry::Pose3>;
-
-constexpr double kSameStorey = 1.0;  // metres between its floor and what lies on it
 
 const map::Entity* findEntity(const map::MapView& view, base::EntityId id) {
   const auto found = std::ranges::find(view.entities(), id, &map::Entity::id);
@@ -46,15 +40,7 @@ std::optional<std::multimap<base::EntityId, base::Time>> detectionsOf(const map:
   return images;
 }
 
-std::optional<int> modelledStorey(const Truth& truth, double z) {
-  const int storey = storeyAt(truth, z);
-  const auto index = static_cast<std::size_t>(storey);
-  if (index >= truth.storeys.size() || std::abs(truth.storeys[index].floor_z - z) > kSameStorey) return std::nullopt;
-  return storey;
-}
-
-ClaimedSpace claimedSpace(const map::MapView& view, const map::Prediction& prediction, const Frames& T_world_submap,
-                          const Truth& truth) {
+ClaimedSpace claimedSpace(const map::MapView& view, const map::Prediction& prediction, const Placement& placement) {
   ClaimedSpace claim{.id = prediction.id,
                      .node = prediction.node,
                      .cause = prediction.cause,
@@ -66,10 +52,10 @@ ClaimedSpace claimedSpace(const map::MapView& view, const map::Prediction& predi
                      .areas_in_world = {},
                      .room_in_world = {}};
   if (const auto* cause = findEntity(view, prediction.cause)) claim.mobility = map::mobility(cause->attributes);
-  const auto seenFrom = T_world_submap.find(prediction.submap);
-  if (seenFrom == T_world_submap.end()) return claim;
+  const auto seenFrom = placement.T_world_submap.find(prediction.submap);
+  if (seenFrom == placement.T_world_submap.end()) return claim;
   const geometry::Pose3 T_world_node = seenFrom->second * prediction.T_submap_node;
-  claim.storey = modelledStorey(truth, T_world_node.translation().z());
+  claim.storey = placement.modelledStoreyAt(T_world_node.translation().z());
   for (const auto& area : prediction.areas) {
     claim.areas_in_world[area.threshold] = transformed(T_world_node, area.outline_in_node);
   }
@@ -79,13 +65,12 @@ ClaimedSpace claimedSpace(const map::MapView& view, const map::Prediction& predi
 
 }  // namespace
 
-Claims claimsOf(const map::MapView& view, const Truth& truth) {
-  const auto T_world_submap = truthFromSubMaps(view, truth);
+Claims claimsOf(const map::MapView& view, const Placement& placement) {
   Claims claims;
   for (const auto& entity : view.entities()) {
-    const auto frame = T_world_submap.find(entity.submap);
-    if (frame == T_world_submap.end() || isGivenUp(entity)) continue;
-    const int storey = storeyAt(truth, frame->second.translation().z());
+    const auto frame = placement.T_world_submap.find(entity.submap);
+    if (frame == placement.T_world_submap.end() || isGivenUp(entity)) continue;
+    const int storey = placement.storeyAt(frame->second.translation().z());
     if (const auto* door = std::get_if<map::Door>(&entity.attributes)) {
       claims.doors.push_back({entity.id, storey, geometry::toPose2(frame->second * entity.T_submap_entity), *door,
                               entity.firstSeen, entity.lastSeen});
@@ -94,10 +79,14 @@ Claims claimsOf(const map::MapView& view, const Truth& truth) {
     }
   }
   for (const auto& prediction : view.predictions()) {
-    claims.spaces.push_back(claimedSpace(view, prediction, T_world_submap, truth));
+    claims.spaces.push_back(claimedSpace(view, prediction, placement));
   }
   claims.images = detectionsOf(view);
   return claims;
+}
+
+Claims claimsOf(const map::MapView& view, const Truth& truth) {
+  return claimsOf(view, placementOf(view, truth));
 }
 
 }  // namespace prodomos::evaluation

@@ -21,17 +21,39 @@ geometry::CellBox boxAhead(double resolution) {
 
 }  // namespace
 
-DoorView::DoorView(const geometry::Pose2& T_world_door, const Polygon& room_in_world,
-                   const std::function<bool(const Eigen::Vector2d&)>& isKnown, double resolution)
+DoorView::DoorView(const geometry::Pose2& T_world_door, double resolution)
     : T_door_world_(geometry::inverse(T_world_door)),
       resolution_(resolution),
       room_(boxAhead(resolution), 0),
-      known_(boxAhead(resolution), 0) {
+      known_(boxAhead(resolution), 0) {}
+
+DoorView::DoorView(const geometry::Pose2& T_world_door, const Polygon& room_in_world,
+                   const std::function<bool(const Eigen::Vector2d&)>& isKnown, double resolution)
+    : DoorView(T_world_door, resolution) {
   const auto roomCells = cellsIn(transformed(T_door_world_, room_in_world), resolution);
   roomArea_ = static_cast<double>(roomCells.size()) * resolution * resolution;
   for (const auto cell : roomCells) {
     if (auto* inRoom = room_.find(cell)) *inRoom = 1;
   }
+  survey(T_world_door, isKnown);
+}
+
+DoorView::DoorView(const geometry::Pose2& T_world_door, const CellMap<std::uint8_t>& room_in_world,
+                   const std::function<bool(const Eigen::Vector2d&)>& isKnown)
+    : DoorView(T_world_door, kCell) {
+  visitCells(room_in_world.box(), [&](geometry::CellIndex cell) {
+    if (room_in_world.at(cell) != 0) roomArea_ += kCell * kCell;
+  });
+  visitCells(room_.box(), [&](geometry::CellIndex cell) {
+    const Eigen::Vector2d centre_in_world = T_world_door * centreOf(cell);
+    const auto cell_in_world = geometry::cellAt(centre_in_world.x(), centre_in_world.y(), kCell);
+    *room_.find(cell) = room_in_world.at(cell_in_world) != 0 ? 1 : 0;
+  });
+  survey(T_world_door, isKnown);
+}
+
+/// What is known, and the integral image of the room.
+void DoorView::survey(const geometry::Pose2& T_world_door, const std::function<bool(const Eigen::Vector2d&)>& isKnown) {
   const auto& box = room_.box();
   const auto width = static_cast<std::size_t>(box.width()) + 1;
   roomBelow_.assign(width * (static_cast<std::size_t>(box.height()) + 1), 0);
@@ -42,9 +64,7 @@ DoorView::DoorView(const geometry::Pose2& T_world_door, const Polygon& room_in_w
     for (int x = box.first.x; x <= box.last.x; ++x, ++place) {
       inRow += room_.at({x, y});
       roomBelow_[place] = roomBelow_[place - width] + inRow;
-      const auto centre = centreOf({x, y}, resolution);
-      const auto inWorld = T_world_door * geometry::Pose2{centre.x(), centre.y(), 0.0};
-      *known_.find({x, y}) = isKnown({inWorld.x, inWorld.y}) ? 1 : 0;
+      *known_.find({x, y}) = isKnown(T_world_door * centreOf({x, y}, resolution_)) ? 1 : 0;
     }
   }
 }

@@ -13,45 +13,24 @@ namespace {
 
 constexpr double kSameThreshold = 0.005;
 
-const Polygon* findArea(const ClaimedSpace& space, double threshold) {
-  for (const auto& [ofArea, outline] : space.areas_in_world) {
-    if (std::abs(ofArea - threshold) < kSameThreshold) return &outline;
-  }
-  return nullptr;
+/// None of a cell that was known when the prediction was made.
+std::optional<CellFate> fateOf(const Scene& scene, const ClaimedSpace& space, geometry::CellIndex cell) {
+  if (scene.known.isKnown(*space.storey, cell, space.made)) return std::nullopt;
+  const auto& plan = scene.plans[static_cast<std::size_t>(*space.storey)];
+  return plan.isFloor(cell, space.made) ? CellFate::kRight : CellFate::kWrong;
 }
 
 CellCounts countCells(const Scene& scene, const ClaimedSpace& space, const Polygon& outline) {
   const auto& plan = scene.plans[static_cast<std::size_t>(*space.storey)];
   CellCounts counts;
   for (const auto cell : cellsIn(outline)) {
-    if (scene.known.isKnown(*space.storey, cell, space.made)) continue;
-    if (!plan.isFloor(cell, space.made)) {
-      ++counts.wrong;
-      continue;
-    }
+    const auto fate = fateOf(scene, space, cell);
+    if (fate == CellFate::kWrong) ++counts.wrong;
+    if (fate != CellFate::kRight) continue;
     ++counts.right;
     if (plan.isFurnished(cell)) ++counts.furnished;
   }
   return counts;
-}
-
-/// Adds the unknown cells of half-discs behind the door.
-void addHalfDiscs(const Scene& scene, const ClaimedSpace& space, const ClaimedDoor& door, FreeSpaceLevel& level) {
-  constexpr double kReach = kRadiusSteps * kRadiusStep;
-  const auto& plan = scene.plans[static_cast<std::size_t>(*space.storey)];
-  ByRadius right{};
-  ByRadius all{};
-  for (const auto cell : cellsIn(boxBehind(door.T_world_door, kReach, -kReach, kWallHalf, kReach))) {
-    const Eigen::Vector2d centre = centreOf(cell);
-    const auto radius = radiusIndex(std::hypot(centre.x() - door.T_world_door.x, centre.y() - door.T_world_door.y));
-    if (radius >= kRadiusSteps || scene.known.isKnown(*space.storey, cell, space.made)) continue;
-    all[radius] += 1.0;
-    if (plan.isFloor(cell, space.made)) right[radius] += 1.0;
-  }
-  accumulate(right);
-  accumulate(all);
-  add(level.halfDiscRight, right);
-  add(level.halfDiscAll, all);
 }
 
 FreeSpaceLevel scoreLevel(const Scene& scene, double threshold) {
@@ -64,7 +43,8 @@ FreeSpaceLevel scoreLevel(const Scene& scene, double threshold) {
     level.byMobility[static_cast<std::size_t>(*space.mobility)] += countCells(scene, space, *outline);
     if (const auto* door = scene.findDoor(space.cause)) {
       ++level.doors;
-      addHalfDiscs(scene, space, *door, level);
+      level.halfDiscs.addBehind(door->T_world_door,
+                                [&](geometry::CellIndex cell) { return fateOf(scene, space, cell); });
     }
     if (space.state == map::PredictionState::kRefuted) continue;
     for (const auto cell : cellsIn(*outline)) {
@@ -76,6 +56,13 @@ FreeSpaceLevel scoreLevel(const Scene& scene, double threshold) {
 }
 
 }  // namespace
+
+const Polygon* findArea(const ClaimedSpace& space, double threshold) {
+  for (const auto& [ofArea, outline] : space.areas_in_world) {
+    if (std::abs(ofArea - threshold) < kSameThreshold) return &outline;
+  }
+  return nullptr;
+}
 
 CellCounts& CellCounts::operator+=(const CellCounts& other) {
   right += other.right;
@@ -98,11 +85,7 @@ std::optional<double> FreeSpaceLevel::areaPerDoor() const {
 
 std::optional<double> FreeSpaceLevel::halfDiscPrecision() const {
   const auto& counts = byMobility[static_cast<std::size_t>(map::Mobility::kQuasiStatic)];
-  const auto predicted = static_cast<double>(counts.right + counts.wrong);
-  if (predicted == 0.0) return std::nullopt;
-  const auto enough = std::ranges::lower_bound(halfDiscAll, predicted);
-  if (enough == halfDiscAll.end()) return std::nullopt;
-  return halfDiscRight[static_cast<std::size_t>(enough - halfDiscAll.begin())] / *enough;
+  return halfDiscs.precisionAt(static_cast<double>(counts.right + counts.wrong));
 }
 
 FreeSpaceLevel& FreeSpaceLevel::operator+=(const FreeSpaceLevel& other) {
@@ -110,8 +93,7 @@ FreeSpaceLevel& FreeSpaceLevel::operator+=(const FreeSpaceLevel& other) {
   areas += other.areas;
   gained += other.gained;
   doors += other.doors;
-  add(halfDiscRight, other.halfDiscRight);
-  add(halfDiscAll, other.halfDiscAll);
+  halfDiscs += other.halfDiscs;
   return *this;
 }
 

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prodomos/evaluation/known_space.hpp"
 
-#include "prodomos/evaluation/alignment.hpp"
-
 #include <algorithm>
 #include <limits>
 
@@ -23,13 +21,13 @@ Polygon outlineOf(const KnownGrid& known) {
 }  // namespace
 
 KnownSpace::KnownSpace(std::vector<KnownGrid> grids) {
-  std::ranges::stable_sort(grids, {}, &KnownGrid::begin);
+  std::ranges::stable_sort(grids, {}, &KnownGrid::since);
   std::map<int, std::vector<Polygon>> outlines;
   for (const auto& grid : grids) outlines[grid.storey].push_back(outlineOf(grid));
   for (const auto& [storey, polygons] : outlines) cellsOfStorey_.emplace(storey, CellMap<Cell>(boxOf(polygons), {}));
   for (const auto& grid : grids) {
-    begins_.push_back(grid.begin);
-    add(static_cast<std::int32_t>(begins_.size()) - 1, grid);
+    times_.push_back(grid.since);
+    add(static_cast<std::int32_t>(times_.size()) - 1, grid);
   }
 }
 
@@ -51,40 +49,53 @@ bool KnownSpace::isKnown(int storey, geometry::CellIndex cell, base::Time at) co
   const auto cells = cellsOfStorey_.find(storey);
   if (cells == cellsOfStorey_.end()) return false;
   const auto since = cells->second.at(cell).since;
-  return since >= 0 && begins_[static_cast<std::size_t>(since)] <= at;
+  return since >= 0 && times_[static_cast<std::size_t>(since)] <= at;
 }
 
 bool KnownSpace::isKnown(int storey, geometry::CellIndex cell) const {
   return isKnown(storey, cell, base::Time::max());
 }
 
-bool KnownSpace::isFree(int storey, geometry::CellIndex cell) const {
+map::CellState KnownSpace::state(int storey, geometry::CellIndex cell) const {
   const auto cells = cellsOfStorey_.find(storey);
-  if (cells == cellsOfStorey_.end()) return false;
-  const auto& found = cells->second.at(cell);
-  return found.since >= 0 && found.evidence < 0;
+  if (cells == cellsOfStorey_.end()) return map::CellState::kUnknown;
+  const auto found = cells->second.at(cell);
+  if (found.since < 0) return map::CellState::kUnknown;
+  return found.evidence < 0 ? map::CellState::kFree : map::CellState::kOccupied;
+}
+
+std::vector<int> KnownSpace::storeys() const {
+  std::vector<int> storeys;
+  for (const auto& [storey, cells] : cellsOfStorey_) storeys.push_back(storey);
+  return storeys;
+}
+
+geometry::CellBox KnownSpace::box(int storey) const {
+  const auto cells = cellsOfStorey_.find(storey);
+  return cells == cellsOfStorey_.end() ? geometry::CellBox{} : cells->second.box();
 }
 
 double KnownSpace::freeArea() const {
   std::size_t count = 0;
   for (const auto& [storey, cells] : cellsOfStorey_) {
-    const auto& box = cells.box();
-    for (int y = box.first.y; y <= box.last.y; ++y) {
-      for (int x = box.first.x; x <= box.last.x; ++x) count += isFree(storey, {x, y}) ? 1U : 0U;
-    }
+    visitCells(cells.box(), [&](geometry::CellIndex cell) { count += isFree(storey, cell) ? 1U : 0U; });
   }
   return static_cast<double>(count) * kCell * kCell;
 }
 
-KnownSpace knownSpaceOf(const map::MapView& view, const Truth& truth) {
+KnownSpace knownSpaceOf(const map::MapView& view, const Placement& placement, base::Time map::Node::*since) {
   std::vector<KnownGrid> grids;
-  for (const auto& [id, T_world_submap] : truthFromSubMaps(view, truth)) {
+  for (const auto& [id, T_world_submap] : placement.T_world_submap) {
     auto grid = view.findLayer<map::OccupancyGrid>(id);
     if (!grid) continue;
-    grids.push_back({storeyAt(truth, T_world_submap.translation().z()), view.graph().getNode(id).begin,
+    grids.push_back({placement.storeyAt(T_world_submap.translation().z()), view.graph().getNode(id).*since,
                      geometry::toPose2(T_world_submap), std::move(grid)});
   }
   return KnownSpace(std::move(grids));
+}
+
+KnownSpace knownSpaceOf(const map::MapView& view, const Truth& truth) {
+  return knownSpaceOf(view, placementOf(view, truth), &map::Node::begin);
 }
 
 }  // namespace prodomos::evaluation

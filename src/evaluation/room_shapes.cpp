@@ -38,28 +38,13 @@ bool isBehindClosedDoor(const Scene& scene, std::size_t index) {
   return door.leaves > 0 && stateAt(door, scene.claims.spaces[index].made) == map::DoorState::kClosed;
 }
 
-/// The likely room; of maps that tell none, the floor at the least threshold.
-Polygon shapeOf(const ClaimedSpace& space) {
-  if (!space.room_in_world.empty() || space.areas_in_world.empty()) return space.room_in_world;
-  return space.areas_in_world.begin()->second;
-}
-
-RoomShape judgeShape(const Scene& scene, std::size_t index, const ClaimedDoor& door, const Baselines& baselines) {
+RoomShape shapeBehind(const Scene& scene, std::size_t index, const ClaimedDoor& door, const Baselines& baselines) {
   const auto& space = scene.claims.spaces[index];
   const auto& room = scene.truth.rooms[*scene.behind[index].room];
   const DoorView view(door.T_world_door, room.outline, [&](const Eigen::Vector2d& point) {
     return scene.known.isKnown(room.storey, geometry::cellAt(point.x(), point.y(), kCell), space.made);
   });
-  RoomShape shape{.isOrdinary = room.use == "room" && view.roomArea() <= kLargestRoom};
-  const Polygon outline = shapeOf(space);
-  shape.predictedArea = static_cast<double>(cellsIn(outline).size()) * kCell * kCell;
-  shape.iou = view.iou(outline);
-  shape.fixedBox = view.iou(baselines.fixedBox);
-  shape.clippedBox = view.iouClipped(baselines.clippedBox);
-  shape.oracleBox = view.iou(view.bestBox());
-  shape.halfDiscs = view.iousOfHalfDiscs();
-  shape.halfDisc = shape.halfDiscs[indexOfRadius(baselines.halfDiscRadius)];
-  return shape;
+  return judgeShape(likelyRoom(space), view, room.use == "room", baselines);
 }
 
 /// Closed to the end, visible from somewhere, and on one side or the other a room that nobody knows.
@@ -86,31 +71,48 @@ FoundCount countDoors(const Scene& scene) {
 
 }  // namespace
 
-std::size_t RoomScore::ordinaryCount() const {
+Polygon likelyRoom(const ClaimedSpace& space) {
+  if (!space.room_in_world.empty() || space.areas_in_world.empty()) return space.room_in_world;
+  return space.areas_in_world.begin()->second;
+}
+
+RoomShape judgeShape(const Polygon& likelyRoom, const DoorView& view, bool isRoom, const Baselines& baselines) {
+  RoomShape shape{.isOrdinary = isRoom && view.roomArea() <= kLargestRoom};
+  shape.predictedArea = static_cast<double>(cellsIn(likelyRoom).size()) * kCell * kCell;
+  shape.iou = view.iou(likelyRoom);
+  shape.fixedBox = view.iou(baselines.fixedBox);
+  shape.clippedBox = view.iouClipped(baselines.clippedBox);
+  shape.oracleBox = view.iou(view.bestBox());
+  shape.halfDiscs = view.iousOfHalfDiscs();
+  shape.halfDisc = shape.halfDiscs[indexOfRadius(baselines.halfDiscRadius)];
+  return shape;
+}
+
+std::size_t RoomShapes::ordinaryCount() const {
   return static_cast<std::size_t>(std::ranges::count_if(shapes, &RoomShape::isOrdinary));
 }
 
-std::optional<double> RoomScore::all() const {
+std::optional<double> RoomShapes::all() const {
   return meanOf(shapes, false, [](const RoomShape& shape) { return shape.iou; });
 }
-std::optional<double> RoomScore::ordinary() const {
+std::optional<double> RoomShapes::ordinary() const {
   return meanOf(shapes, true, [](const RoomShape& shape) { return shape.iou; });
 }
-std::optional<double> RoomScore::fixedBox() const {
+std::optional<double> RoomShapes::fixedBox() const {
   return meanOf(shapes, true, [](const RoomShape& shape) { return shape.fixedBox; });
 }
-std::optional<double> RoomScore::clippedBox() const {
+std::optional<double> RoomShapes::clippedBox() const {
   return meanOf(shapes, true, [](const RoomShape& shape) { return shape.clippedBox; });
 }
-std::optional<double> RoomScore::oracleBox() const {
+std::optional<double> RoomShapes::oracleBox() const {
   return meanOf(shapes, true, [](const RoomShape& shape) { return shape.oracleBox; });
 }
 
-std::optional<double> RoomScore::halfDiscBest() const {
+std::optional<double> RoomShapes::halfDiscBest() const {
   return meanOf(shapes, true, [](const RoomShape& shape) { return shape.halfDisc; });
 }
 
-std::optional<double> RoomScore::halfDiscEqualArea() const {
+std::optional<double> RoomShapes::halfDiscEqualArea() const {
   const auto meanArea = meanOf(shapes, true, [](const RoomShape& shape) { return shape.predictedArea; });
   if (!meanArea) return std::nullopt;
   const auto index = indexOfRadius(std::sqrt(2.0 * *meanArea / std::numbers::pi));
@@ -130,7 +132,7 @@ RoomScore scoreRooms(const Scene& scene, const Baselines& baselines) {
     const auto& space = scene.claims.spaces[i];
     const auto* door = scene.findDoor(space.cause);
     if (door == nullptr || !isBehindClosedDoor(scene, i) || !judged.insert(space.node).second) continue;
-    score.shapes.push_back(judgeShape(scene, i, *door, baselines));
+    score.shapes.push_back(shapeBehind(scene, i, *door, baselines));
   }
   score.doors = countDoors(scene);
   return score;

@@ -99,6 +99,26 @@ TEST(Alignment, OfSubMapsDoesNotCareHowTheyDriftApart) {
   EXPECT_GT((T_world_second.translation() - T_world_submap.at({2}).translation()).norm(), 0.1);
 }
 
+TEST(Placement, WithoutTruthIsTheMapItself) {
+  auto store = map::MapStore::inMemory();
+  map::MapChange change;
+  change.sessions = {{.id = {1}}};
+  change.floors = {{.number = 0, .height = 0.0}, {.number = -1, .height = -3.0}};
+  map::Node node;
+  node.id = {4};
+  node.session = {1};
+  node.T_map_submap = geometry::toPose3({1.0, 2.0, 0.5}, -3.0);
+  change.nodes = {node};
+  store.commit(change);
+  const auto placement = placementOf(store.view());
+  ASSERT_EQ(placement.T_world_submap.size(), 1U);
+  EXPECT_TRUE(placement.T_world_submap.at({4}).isApprox(node.T_map_submap, 1e-9));
+  EXPECT_EQ(placement.storeyAt(-2.0), 0);
+  EXPECT_EQ(placement.modelledStoreyAt(0.9), 1);
+  EXPECT_FALSE(placement.modelledStoreyAt(-1.5));
+  EXPECT_FALSE(placement.modelledStoreyAt(6.0));
+}
+
 TEST(Alignment, TellsTheNearestStorey) {
   const auto truth = test::flat::truth();
   EXPECT_EQ(storeyAt(truth, 1.4), 1);

@@ -45,6 +45,20 @@ TEST(DoorView, IsTheSameFromEverywhere) {
   EXPECT_NEAR(view.iou(room), 1.0, 1e-9);
 }
 
+TEST(DoorView, ARoomMayBeToldAsCells) {
+  const geometry::Pose2 door{3.0, -2.0, 0.7};
+  const auto room = geometry::transformed(door, test::rectangle(0.1, -2, 4.1, 3));
+  CellMap<std::uint8_t> cells(geometry::boxOf({room}), 0);
+  cells.fill(room, 2);
+  const auto nothing = [](const Eigen::Vector2d&) { return false; };
+  const DoorView asPolygon(door, room, nothing);
+  const DoorView asCells(door, cells, nothing);
+  EXPECT_NEAR(asCells.roomArea(), asPolygon.roomArea(), 0.1);
+  const DoorBox box{1.0, 1.0, 2.0};
+  EXPECT_NEAR(asCells.iou(box), asPolygon.iou(box), 0.01);
+  EXPECT_GT(asCells.iou(room), 0.97);
+}
+
 TEST(DoorView, OfARoomThatReachesFarCountsAllOfIt) {
   const auto view = viewOf(rectangle(0.1, -30, 4.1, 30));
   EXPECT_NEAR(view.roomArea(), 240.0, 1e-6);

@@ -59,7 +59,7 @@ TEST_F(FreeSpace, CountsWhatWasUnknownWhenItWasPredicted) {
   EXPECT_NEAR(*level().overall().precision(), (1.6 + opening) / 2.0, 0.01);
   grids.push_back(freeRectangle(0, 2.2, 4, 6.2, at(4)));
   EXPECT_NEAR(*level().overall().precision(), opening / 0.4, 0.02);
-  grids.back().begin = at(6);  // seen later: it counts
+  grids.back().since = at(6);  // seen later: it counts
   EXPECT_NEAR(*level().overall().precision(), (1.6 + opening) / 2.0, 0.01);
 }
 

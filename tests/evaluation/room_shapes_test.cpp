@@ -91,7 +91,7 @@ TEST_F(RoomShapes, OfRoomsThatWereKnownAreNotJudged) {
   predict(rectangle(0, 2.2, 4, 6.2));
   grids.push_back(freeRectangle(0, 2.2, 4, 6.2, at(4)));
   EXPECT_TRUE(score().shapes.empty());
-  grids.back().begin = at(6);
+  grids.back().since = at(6);
   EXPECT_EQ(score().shapes.size(), 1U);
 }
 

@@ -32,4 +32,19 @@ std::map<base::SubMapId, geometry::Pose3> truthFromSubMaps(const map::MapView& v
 /// The storey whose floor is nearest to that height; 0 where there is none.
 int storeyAt(const Truth& truth, double z);
 
+/// A map in a world: where its observed sub-maps lie there, and how high the floors of the storeys are.
+struct Placement {
+  std::map<base::SubMapId, geometry::Pose3> T_world_submap;
+  std::vector<double> floors_z;  ///< index is the storey
+
+  int storeyAt(double z) const;  ///< the nearest; 0 where there is none
+  /// None where no floor is within a metre.
+  std::optional<int> modelledStoreyAt(double z) const;
+};
+
+/// As truthFromSubMaps(). Throws as it does.
+Placement placementOf(const map::MapView& view, const Truth& truth);
+/// Without truth the map's own frame is the world, and its floors, by height, are the storeys.
+Placement placementOf(const map::MapView& view);
+
 }  // namespace prodomos::evaluation

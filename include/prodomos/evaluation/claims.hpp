@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "prodomos/evaluation/alignment.hpp"
 #include "prodomos/evaluation/cells.hpp"
 #include "prodomos/evaluation/truth.hpp"
 #include "prodomos/map/map_view.hpp"
@@ -10,8 +11,8 @@
 #include <optional>
 #include <vector>
 
-/// What a map says of doors, stairs and what lies behind them, in the world of its truth. Each thing is brought there
-/// with the sub-map that saw it (alignment.hpp), so that drift between sub-maps is not charged to a detector.
+/// What a map says of doors, stairs and what lies behind them, in a world. Each thing is brought there with the sub-map
+/// that saw it (alignment.hpp), so that drift between sub-maps is not charged to a detector.
 namespace prodomos::evaluation {
 
 struct ClaimedDoor {
@@ -39,7 +40,7 @@ struct ClaimedSpace {
   base::SubMapId node;
   base::EntityId cause;
   std::optional<map::Mobility> mobility;  ///< of its cause; none where the map has lost it
-  std::optional<int> storey;              ///< none: at the height of no storey that the truth knows
+  std::optional<int> storey;              ///< none: at the height of no storey of the world
   double probability = 0.0;
   base::Time made{};
   std::optional<base::Time> settled;
@@ -56,7 +57,8 @@ struct Claims {
   std::optional<std::multimap<base::EntityId, base::Time>> images;
 };
 
-/// Throws base::Error where map and truth have no time in common.
+Claims claimsOf(const map::MapView& view, const Placement& placement);
+/// In the world of the truth. Throws base::Error where map and truth have no time in common.
 Claims claimsOf(const map::MapView& view, const Truth& truth);
 
 }  // namespace prodomos::evaluation

@@ -26,6 +26,9 @@ class DoorView {
   /// `isKnown` is asked for points of the world.
   DoorView(const geometry::Pose2& T_world_door, const Polygon& room_in_world,
            const std::function<bool(const Eigen::Vector2d&)>& isKnown, double resolution = kCell);
+  /// Of a room that is told as cells of kCell: those that are not 0.
+  DoorView(const geometry::Pose2& T_world_door, const CellMap<std::uint8_t>& room_in_world,
+           const std::function<bool(const Eigen::Vector2d&)>& isKnown);
 
   double roomArea() const { return roomArea_; }  ///< m²
 
@@ -40,6 +43,9 @@ class DoorView {
   DoorBox bestBox() const;
 
  private:
+  DoorView(const geometry::Pose2& T_world_door, double resolution);
+
+  void survey(const geometry::Pose2& T_world_door, const std::function<bool(const Eigen::Vector2d&)>& isKnown);
   double iouOf(double cellsInBoth, double cellsInShape) const;
   geometry::CellBox cellsOf(const DoorBox& box) const;
   double roomCells(const geometry::CellBox& box) const;

@@ -25,14 +25,16 @@ struct CellCounts {
   CellCounts& operator+=(const CellCounts& other);
 };
 
+/// Null where the prediction tells none at that threshold.
+const Polygon* findArea(const ClaimedSpace& space, double threshold);
+
 /// At one threshold.
 struct FreeSpaceLevel {
   std::array<CellCounts, 3> byMobility;  ///< of the cause, in the order of map::Mobility
   std::size_t areas = 0;                 ///< predictions that have one
   std::size_t gained = 0;                ///< cells that the map knows only by prediction, in the end, each once
   std::size_t doors = 0;                 ///< predictions by doors that have an area
-  ByRadius halfDiscRight{};              ///< cells that were unknown, of half-discs behind the same doors
-  ByRadius halfDiscAll{};
+  HalfDiscs halfDiscs;                   ///< cells that were unknown, behind the same doors
 
   CellCounts overall() const;
   /// m² of unknown cells that a door gains; none where there is none.

@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "prodomos/evaluation/cells.hpp"
+
 #include <array>
 #include <cstddef>
+#include <functional>
+#include <optional>
 
 /// The trivial predictor: a half-disc behind each door, kWallHalf beyond its leaf.
 namespace prodomos::evaluation {
@@ -20,5 +24,23 @@ void accumulate(ByRadius& sums);
 void add(ByRadius& sums, const ByRadius& others);
 /// Of a distance from the door; kRadiusSteps where it is too far.
 std::size_t radiusIndex(double distance);
+
+/// What became of a cell that was said to be free floor.
+enum class CellFate { kRight, kWrong, kNobodyKnows };
+
+/// Cells of half-discs behind many doors, all of one radius.
+struct HalfDiscs {
+  ByRadius all{};
+  ByRadius right{};
+  ByRadius wrong{};
+
+  /// Those behind one more door; cells without a fate do not count.
+  void addBehind(const geometry::Pose2& T_world_door,
+                 const std::function<std::optional<CellFate>(geometry::CellIndex)>& fateOf);
+  /// Right / (right + wrong) of those that together have so many cells, whatever their fate; none where there are none,
+  /// or nobody knows of any.
+  std::optional<double> precisionAt(double cells) const;
+  HalfDiscs& operator+=(const HalfDiscs& other);
+};
 
 }  // namespace prodomos::evaluation

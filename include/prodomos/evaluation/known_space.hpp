@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "prodomos/evaluation/alignment.hpp"
 #include "prodomos/evaluation/cells.hpp"
 #include "prodomos/evaluation/truth.hpp"
 #include "prodomos/map/map_view.hpp"
@@ -16,13 +17,13 @@ namespace prodomos::evaluation {
 /// The grid of a sub-map, in the world.
 struct KnownGrid {
   int storey = 0;
-  base::Time begin{};  ///< of its sub-map
+  base::Time since{};  ///< all that it knows counts as known from then on
   geometry::Pose2 T_world_grid;
   std::shared_ptr<const map::OccupancyGrid> grid;
 };
 
 /// Which cells of the world a map has observed, and since when: a map's grids tell the time of a cell to the sub-map,
-/// so a cell counts as known since the first sub-map that knows it began.
+/// so a cell counts as known since the time of the first grid that knows it.
 class KnownSpace {
  public:
   KnownSpace() = default;
@@ -30,8 +31,12 @@ class KnownSpace {
 
   bool isKnown(int storey, geometry::CellIndex cell, base::Time at) const;
   bool isKnown(int storey, geometry::CellIndex cell) const;  ///< ever
-  bool isFree(int storey, geometry::CellIndex cell) const;   ///< by all grids together, in the end
-  double freeArea() const;                                   ///< m², of all storeys
+  /// By all grids together, in the end.
+  map::CellState state(int storey, geometry::CellIndex cell) const;
+  bool isFree(int storey, geometry::CellIndex cell) const { return state(storey, cell) == map::CellState::kFree; }
+  double freeArea() const;                  ///< m², of all storeys
+  std::vector<int> storeys() const;         ///< ascending; those that a grid shows
+  geometry::CellBox box(int storey) const;  ///< of all known cells; empty where there are none
 
  private:
   struct Cell {
@@ -41,11 +46,13 @@ class KnownSpace {
 
   void add(std::int32_t number, const KnownGrid& known);
 
-  std::vector<base::Time> begins_;  ///< of the grids, ascending
+  std::vector<base::Time> times_;  ///< of the grids, ascending
   std::map<int, CellMap<Cell>> cellsOfStorey_;
 };
 
-/// Of all observed sub-maps with a grid. Throws base::Error where map and truth have no time in common.
+/// Of all observed sub-maps with a grid; a cell is known since the first that knows it began, or ended.
+KnownSpace knownSpaceOf(const map::MapView& view, const Placement& placement, base::Time map::Node::*since);
+/// Since they began, in the world of the truth. Throws base::Error where map and truth have no time in common.
 KnownSpace knownSpaceOf(const map::MapView& view, const Truth& truth);
 
 }  // namespace prodomos::evaluation

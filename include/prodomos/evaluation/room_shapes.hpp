@@ -3,6 +3,7 @@
 #pragma once
 
 #include "prodomos/evaluation/baselines.hpp"
+#include "prodomos/evaluation/door_view.hpp"
 #include "prodomos/evaluation/scene.hpp"
 
 #include <optional>
@@ -26,9 +27,14 @@ struct RoomShape {
   ByRadius halfDiscs{};  ///< of all radii
 };
 
-struct RoomScore {
+/// The likely room that a prediction tells; where it tells none, its floor at the least threshold.
+Polygon likelyRoom(const ClaimedSpace& space);
+/// `isRoom`: neither corridor nor stairwell, as far as one can tell.
+RoomShape judgeShape(const Polygon& likelyRoom, const DoorView& view, bool isRoom,
+                     const Baselines& baselines = trainedBaselines());
+
+struct RoomShapes {
   std::vector<RoomShape> shapes;
-  FoundCount doors;  ///< visible closed doors with an unseen room behind, in the end; those with a predicted room
 
   std::size_t ordinaryCount() const;
   /// Mean IoUs; none where there is no such room. All but the first are of ordinary rooms.
@@ -39,6 +45,11 @@ struct RoomScore {
   std::optional<double> oracleBox() const;
   std::optional<double> halfDiscBest() const;
   std::optional<double> halfDiscEqualArea() const;  ///< all of one radius, so great that they cover as much together
+};
+
+struct RoomScore : RoomShapes {
+  FoundCount doors;  ///< visible closed doors with an unseen room behind, in the end; those with a predicted room
+
   RoomScore& operator+=(const RoomScore& other);
 };
 
