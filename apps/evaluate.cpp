@@ -196,19 +196,21 @@ constexpr Kind kRelations = {"relations", "the way against true relations betwee
                              evaluateRelations};
 constexpr Kind kTrajectory = {"trajectory", "the way against true poses", addTrajectory, evaluateTrajectory};
 
-constexpr std::array kKinds = {&kRelations, &kTrajectory, &kPrediction, &kNoise,
+constexpr std::array kKinds = {&kRelations, &kTrajectory, &kPrediction, &kHindsight, &kNoise,
                                &kLabels,    &kPlanes,     &kObjects,    &kHumans};
 
-void addCommonOptions(CLI::App& kind, EvaluateOptions& options, bool againstTruthFiles) {
-  if (!againstTruthFiles) {
+void addCommonOptions(CLI::App& kind, EvaluateOptions& options, Against against) {
+  if (against == Against::kFile) {
     kind.add_option("MAP", options.maps, "the map file")->required()->expected(1);
     kind.add_option("--poses", options.poses, "refined (default) or travelled: as before all refinement")
         ->check(CLI::IsMember({"refined", "travelled"}));
     return;
   }
   kind.add_option("MAP", options.maps, "the map file; several are scored together")->required();
-  kind.add_option("--truth", options.truths, "LOG.truth.json of each map, in their order (default: beside its log)")
-      ->allow_extra_args(false);
+  if (against == Against::kTruthOfLog) {
+    kind.add_option("--truth", options.truths, "LOG.truth.json of each map, in their order (default: beside its log)")
+        ->allow_extra_args(false);
+  }
   kind.add_option("--html", options.html, "write a page with the pictures");
 }
 
@@ -248,18 +250,19 @@ std::vector<MapAndTruth> mapsAndTruths(const EvaluateOptions& options) {
 }
 
 void addEvaluate(CLI::App& program) {
-  auto* command = program.add_subcommand("evaluate", "score a map against truth");
+  auto* command = program.add_subcommand("evaluate", "score a map against truth, or in hindsight");
   command->require_subcommand(1);
   command->footer(
       "prodomos evaluate KIND --help has options and examples of each kind.\n"
       "Examples:\n"
       "  prodomos evaluate relations intel.prodomos --relations intel.relations\n"
       "  prodomos evaluate trajectory room.prodomos --truth groundtruth.txt --json\n"
-      "  prodomos evaluate prediction office.prodomos --truth office.truth.json");
+      "  prodomos evaluate prediction office.prodomos --truth office.truth.json\n"
+      "  prodomos evaluate hindsight intel.prodomos");
   for (const Kind* kind : kKinds) {
     auto* subcommand = command->add_subcommand(kind->name, kind->text);
     auto options = std::make_shared<EvaluateOptions>();
-    addCommonOptions(*subcommand, *options, kind->againstTruthFiles);
+    addCommonOptions(*subcommand, *options, kind->against);
     kind->addOptions(*subcommand, *options);
     subcommand->add_flag("--json", options->json, "as JSON (docs/evaluation.md)");
     subcommand->callback([options, evaluate = kind->evaluate] { evaluate(*options); });

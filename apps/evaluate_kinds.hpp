@@ -26,17 +26,24 @@ struct EvaluateOptions {
   double range = 5.0;               ///< metres to a person that counts
 };
 
+/// What maps are compared with.
+enum class Against {
+  kFile,        ///< one map with a file that an option of the kind's own names
+  kTruthOfLog,  ///< MAP... with the LOG.truth.json of each (--truth); there may be a page (--html)
+  kItself,      ///< MAP..., each with what it shows in the end
+};
+
 /// What can be scored.
 struct Kind {
   const char* name;
   const char* text;
   void (*addOptions)(CLI::App& kind, EvaluateOptions& options);
   void (*evaluate)(const EvaluateOptions& options);
-  /// Compares MAP... with the LOG.truth.json of each (--truth), and draws a page (--html).
-  bool againstTruthFiles = false;
+  Against against = Against::kFile;
 };
 
 extern const Kind kPrediction;  // evaluate_prediction.cpp
+extern const Kind kHindsight;   // evaluate_hindsight.cpp
 extern const Kind kNoise;       // evaluate_scores.cpp
 extern const Kind kLabels;
 extern const Kind kPlanes;

@@ -5,6 +5,7 @@
 #include "prodomos/map/map_view.hpp"
 
 #include "evaluate_kinds.hpp"
+#include "prediction_json.hpp"
 #include "prediction_table.hpp"
 #include "score_report.hpp"
 
@@ -85,44 +86,20 @@ Json toJson(const evaluation::FreeSpaceScore& score) {
 }
 
 Json toJson(const evaluation::RoomScore& score) {
-  return {{"all", measure(score.all())},
-          {"up_to_60_m2", measure(score.ordinary())},
-          {"half_disc_equal_area", measure(score.halfDiscEqualArea())},
-          {"half_disc_best", measure(score.halfDiscBest())},
-          {"fixed_box", measure(score.fixedBox())},
-          {"clipped_box", measure(score.clippedBox())},
-          {"oracle_box", measure(score.oracleBox())},
-          {"rooms", score.shapes.size()},
-          {"rooms_up_to_60_m2", score.ordinaryCount()},
-          {"doors", score.doors.truth},
-          {"doors_predicted", score.doors.found}};
-}
-
-Json toJson(const std::vector<evaluation::Bet>& bets) {
-  const auto calibration = evaluation::calibrationOf(bets);
-  if (!calibration) return {{"ece", nullptr}, {"brier", nullptr}, {"brier_skill", nullptr}, {"bins", nullptr}};
-  Json bins = Json::array();
-  for (const auto& bin : calibration->bins) {
-    const auto ifAny = [&bin](double value) { return bin.count == 0 ? Json(nullptr) : Json(value); };
-    bins.push_back({{"from", bin.from},
-                    {"to", bin.to},
-                    {"count", bin.count},
-                    {"mean_probability", ifAny(bin.meanProbability)},
-                    {"frequency", ifAny(bin.frequency)}});
-  }
-  return {{"ece", calibration->expectedError},
-          {"brier", calibration->brier},
-          {"brier_skill", measure(calibration->brierSkill)},
-          {"base_rate", calibration->baseRate},
-          {"count", calibration->count},
-          {"bins", bins}};
+  Json out = shapesToJson(score);
+  out["doors"] = score.doors.truth;
+  out["doors_predicted"] = score.doors.found;
+  return out;
 }
 
 Json toJson(const PredictionScore& score) {
-  return {{"doors", toJson(score.doors)},          {"doorways", toJson(score.doorways)},
-          {"stairs", toJson(score.stairs)},        {"nodes", toJson(score.nodes)},
-          {"free_space", toJson(score.freeSpace)}, {"room_iou", toJson(score.rooms)},
-          {"calibration", toJson(score.bets)}};
+  return {{"doors", toJson(score.doors)},
+          {"doorways", toJson(score.doorways)},
+          {"stairs", toJson(score.stairs)},
+          {"nodes", toJson(score.nodes)},
+          {"free_space", toJson(score.freeSpace)},
+          {"room_iou", toJson(score.rooms)},
+          {"calibration", calibrationToJson(score.bets)}};
 }
 
 /// By measure the building that has the least of it.
@@ -195,6 +172,6 @@ void addPrediction(CLI::App& kind, EvaluateOptions& /*options*/) {
 }  // namespace
 
 constexpr Kind kPrediction = {"prediction", "doors, stairs, predicted rooms and free floor against the truth of a log",
-                              addPrediction, evaluatePrediction, true};
+                              addPrediction, evaluatePrediction, Against::kTruthOfLog};
 
 }  // namespace prodomos::apps

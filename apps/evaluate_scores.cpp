@@ -301,11 +301,14 @@ void addHumans(CLI::App& kind, EvaluateOptions& options) {
 }  // namespace
 
 constexpr Kind kNoise = {"noise", "what moving things left behind, against the truth of a log", addNoise, evaluateNoise,
-                         true};
-constexpr Kind kLabels = {"labels", "classes of voxels against the truth of a log", addLabels, evaluateLabels, true};
-constexpr Kind kPlanes = {"planes", "plane patches against the truth of a log", addPlanes, evaluatePlanes, true};
-constexpr Kind kObjects = {"objects", "things as boxes against the truth of a log", addObjects, evaluateObjects, true};
+                         Against::kTruthOfLog};
+constexpr Kind kLabels = {"labels", "classes of voxels against the truth of a log", addLabels, evaluateLabels,
+                          Against::kTruthOfLog};
+constexpr Kind kPlanes = {"planes", "plane patches against the truth of a log", addPlanes, evaluatePlanes,
+                          Against::kTruthOfLog};
+constexpr Kind kObjects = {"objects", "things as boxes against the truth of a log", addObjects, evaluateObjects,
+                           Against::kTruthOfLog};
 constexpr Kind kHumans = {"humans", "persons that were followed against the truth of a log", addHumans, evaluateHumans,
-                          true};
+                          Against::kTruthOfLog};
 
 }  // namespace prodomos::apps

@@ -191,17 +191,22 @@ void printReport(const std::string& title, const Json& report) {
 }
 
 void writeReportPage(const std::string& path, const std::string& title, const Json& report,
+                     std::vector<evaluation::ScorePicture> pictures, std::vector<std::string> lines) {
+  evaluation::writeScorePage({title, std::move(lines), tablesOf(report), std::move(pictures)}, path);
+}
+
+void writeReportPage(const std::string& path, const std::string& title, const Json& report,
                      std::vector<evaluation::ScorePicture> pictures, const std::vector<MapAndTruth>& maps) {
-  evaluation::ScorePage page{.title = title, .tables = tablesOf(report), .pictures = std::move(pictures)};
+  std::vector<std::string> lines;
   for (const auto& [map, truthFile] : maps) {
     const auto truth = evaluation::readTruth(truthFile);
-    page.lines.push_back(map + " against " + truthFile);
+    lines.push_back(map + " against " + truthFile);
     for (auto& picture : evaluation::planPictures(map::MapView::open(map), truth)) {
       picture.title = truth.building + ", " + picture.title;
-      page.pictures.push_back(std::move(picture));
+      pictures.push_back(std::move(picture));
     }
   }
-  writeScorePage(page, path);
+  writeReportPage(path, title, report, std::move(pictures), std::move(lines));
 }
 
 }  // namespace prodomos::apps

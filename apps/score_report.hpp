@@ -27,7 +27,10 @@ std::vector<evaluation::ScoreTable> tablesOf(const nlohmann::ordered_json& repor
 /// As text on the standard output. Of many buildings the first few are shown.
 void printReport(const std::string& title, const nlohmann::ordered_json& report);
 
-/// The page of --html: tables of the report, `pictures`, and a plan of each storey of each map. Throws base::FileError.
+/// The page of --html: tables of the report and `pictures`, below the title `lines`. Throws base::FileError.
+void writeReportPage(const std::string& path, const std::string& title, const nlohmann::ordered_json& report,
+                     std::vector<evaluation::ScorePicture> pictures, std::vector<std::string> lines);
+/// The same, with a plan of each storey of each map.
 void writeReportPage(const std::string& path, const std::string& title, const nlohmann::ordered_json& report,
                      std::vector<evaluation::ScorePicture> pictures, const std::vector<MapAndTruth>& maps);
 

@@ -37,6 +37,7 @@ svg text { font: 11px system-ui, sans-serif; fill: var(--soft); text-anchor: mid
 svg text.left { text-anchor: start; } svg text.right-end { text-anchor: end; }
 svg text.name { paint-order: stroke; stroke: var(--room); stroke-width: 3px; stroke-linejoin: round; }
 .room { fill: var(--room); stroke: var(--wall); stroke-width: 1.5; } .room.entered { fill: var(--entered); }
+.seen { fill: var(--room); } .seen-wall { fill: var(--wall); }
 .thing { fill: var(--thing); stroke: none; } .mapped-thing { fill: none; stroke: var(--map); stroke-width: 1.2; }
 .stairs, .step { fill: none; stroke: var(--true); stroke-width: 1; }
 .door { stroke: var(--true); stroke-width: 5; fill: none; } .door.unseen { opacity: .35; }
@@ -47,7 +48,7 @@ svg text.name { paint-order: stroke; stroke: var(--room); stroke-width: 3px; str
 .mapped-person { fill: none; stroke: var(--person); stroke-width: 4; opacity: .4; stroke-linecap: round; }
 .bet { fill: var(--bet); stroke: var(--bet); stroke-width: 1; }
 .right { fill: var(--right); stroke: var(--right); } .wrong { fill: var(--wrong); stroke: var(--wrong); }
-.neither { fill: var(--bg); stroke: var(--map); } .claim { stroke-width: 2; } .outline { fill: none; }
+.neither { fill: var(--bg); stroke: var(--map); } .claim { stroke-width: 2; } .outline { fill-opacity: .15; }
 .missed { fill: none; stroke: var(--missed); stroke-width: 2.5; }
 .axis { stroke: var(--wall); stroke-width: 1; fill: none; } .grid { stroke: var(--line); stroke-width: 1; fill: none; }
 .diagonal { stroke: var(--soft); stroke-dasharray: 4 4; fill: none; }

@@ -13,6 +13,7 @@ from program import ROOT, SystemTest, main, run
 
 KEYS = {
     "prediction": {"doors", "doorways", "stairs", "nodes", "free_space", "room_iou", "calibration", "worst"},
+    "hindsight": {"bets", "rooms", "free_space", "room_iou", "calibration"},
     "noise": {"cells", "free_floor", "noise_share", "walls", "walls_kept", "points"},
     "labels": {"why", "voxels", "unlabeled", "stray", "accuracy", "miou", "iou", "confusion"},
     "planes": {"truth", "mapped", "threshold", "correct", "over_segmented", "under_segmented", "missed", "noise",
@@ -74,6 +75,17 @@ class Scores(SystemTest):
         self.assertIn("no layer", labels["why"])
         self.assertIsNone(self.ask("planes", self.map)["angle_deg"])
         self.assertIsNone(self.ask("humans", self.map, "--range", "0.001")["mota"])
+
+    def test_hindsight_needs_no_truth(self):
+        alone = self.folder / "alone.prodomos"
+        shutil.copy(self.map, alone)
+        report = self.ask("hindsight", alone)
+        self.assertEqual(report["bets"]["made"], sum(report["bets"][state] for state in
+                                                     ("open", "confirmed", "merged", "refuted")))
+        both = self.ask("hindsight", self.map, alone)
+        self.assertEqual(both["bets"]["made"], 2 * report["bets"]["made"])
+        self.assertEqual(both["rooms"]["entered"], 2 * report["rooms"]["entered"])
+        self.check_refused(run("evaluate", "hindsight", alone, "--truth", self.truth), "--truth", codes=(2,))
 
     def test_the_grid_has_the_walls_that_it_saw(self):
         noise = self.ask("noise", self.map)
