@@ -23,9 +23,10 @@ using sensors::DepthGrid;
 
 constexpr double kUpright = 1.35;       // radians of tilt: 77 degrees and more
 constexpr double kMostRoughness = 0.6;  // of an outline; its teeth decide
-constexpr int kLeastSteps = 4;          // three alike there may be in a row of things by chance
-constexpr int kMostStep = 30;           // from the outline's middle, either way
-constexpr double kUsualWidth = 1.2;     // metres, where nothing tells
+constexpr double kRougher = 0.2;     // than steps seen from the front: posts of rails and odd pixels are in an outline
+constexpr int kLeastSteps = 4;       // three alike there may be in a row of things by chance
+constexpr int kMostStep = 30;        // from the outline's middle, either way
+constexpr double kUsualWidth = 1.2;  // metres, where nothing tells
 constexpr double kLeastWidth = 0.6;
 constexpr double kMostWidth = 2.5;
 constexpr double kGap = 0.25;         // metres across, of what is seen of a flight
@@ -53,6 +54,8 @@ class FlightBeside {
 
     bool isAsked() const { return solid + missing + open + filled > 0; }
     bool isThere() const { return solid >= 2 && open >= 2; }
+    /// Something stands before the notch over it, as a rail's post does.
+    bool isCovered() const { return solid >= 2 && filled > 0; }
   };
   struct Run {
     int lowest = 0;
@@ -90,7 +93,7 @@ FlightBeside::Tooth FlightBeside::tooth(int step) const {
   return tooth;
 }
 
-/// Steps one above the other; one in between may be hidden.
+/// Steps one above the other; one in between may be hidden or covered.
 FlightBeside::Run FlightBeside::longestRun() const {
   Run best;
   Run run;
@@ -103,7 +106,7 @@ FlightBeside::Run FlightBeside::longestRun() const {
       run.spots += {here.solid + here.open, here.missing + here.filled};
       hidden = 0;
       if (run.count > best.count) best = run;
-    } else if (here.isAsked() || ++hidden > 1) {
+    } else if ((here.isAsked() && !here.isCovered()) || ++hidden > 1) {
       run = {};
     }
   }
@@ -175,7 +178,7 @@ std::optional<StaircaseSighting> flightBeside(const RgbdView& view, const Surfac
   for (const EdgePoint& p : outline.points) {
     points.push_back({{p.place.x() - middle.x(), 0.0, p.place.y() - middle.y()}, p.sigma});
   }
-  const auto found = findLattice(points, outline.rise, false);
+  auto found = findLattice(points, outline.rise, false);
   if (!found || found->roughness > kMostRoughness) return std::nullopt;
   const Eigen::Vector3d direction = uphill * side.right();
   const Pose3 T_submap_flight = geometry::fromYawPitchRoll(side.pointAt({uphill * middle.x(), middle.y()}),
@@ -184,6 +187,7 @@ std::optional<StaircaseSighting> flightBeside(const RgbdView& view, const Surfac
   const auto steps = flight.steps(view.T_submap_camera);
   if (!steps) return std::nullopt;
   const ProfileCheck check(view.T_submap_camera, surfaces.depth, found->lattice, T_submap_flight);
+  found->roughness -= kRougher;
   auto sighting = sightingOf(view, surfaces, *found, T_submap_flight, *steps, check);
   sighting.widthIsWhole = false;
   return sighting;

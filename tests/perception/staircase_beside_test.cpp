@@ -85,6 +85,18 @@ TEST(FlightBeside, IsFoundFromItsSideWhicheverWayItLeads) {
   }
 }
 
+TEST(FlightBeside, IsFoundThoughAPostCoversAStep) {
+  DepthScene scene;
+  const OpenFlight flight{.T_world_foot = at(3.2, -1.0, 90.0 * kDegree), .steps = 7};
+  add(scene, flight);
+  constexpr double kBeforeRiser = 2.7;  // of the fourth: three steps are left on either side of the post
+  scene.addBlock(flight.T_world_foot * at(kBeforeRiser * flight.depth, flight.width / 2.0, 0.0), {0.17, 0.04, 1.7});
+  const auto found = beside(scene, cameraAt({0.0, 0.0, 1.2}, 0.0));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_GE(found[0].steps.size(), 5U);
+  EXPECT_LT(turnBetween(found[0], flight), 3.0 * kDegree);
+}
+
 TEST(FlightBeside, IsFoundFromBehindWhereNoRiserIsSeen) {
   DepthScene scene;
   const OpenFlight flight{.T_world_foot = at(3.0, 2.2, -100.0 * kDegree)};
