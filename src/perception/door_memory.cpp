@@ -194,9 +194,11 @@ bool DoorMemory::takeLeaf(std::size_t doorIndex, std::size_t leafIndex, const Fr
   auto& door = landmarks_[doorIndex];
   auto& leaf = landmarks_[leafIndex];
   if (doorIndex == leafIndex || door.looks.empty() || leaf.looks.empty()) return false;
-  const auto state = door.state.state();
-  const bool isOpen = !hasLeaf(door) || state == map::DoorState::kOpen || state == map::DoorState::kAjar;
-  if (!isOpen || door.logOdds < config_.certainty || !hasLeaf(leaf)) return false;
+  const auto standsOpen = [](const DoorLandmark& any) {
+    return any.state.state() == map::DoorState::kOpen || any.state.state() == map::DoorState::kAjar;
+  };
+  if ((hasLeaf(door) && !standsOpen(door)) || door.logOdds < config_.certainty) return false;
+  if (!hasLeaf(leaf) || standsOpen(leaf)) return false;
   const auto side = hingeSideOfLeaf(placeOf(leaf, frames, config_), placeOf(door, frames, config_));
   if (!side) return false;
   door.leafAside += leaf.leaf;

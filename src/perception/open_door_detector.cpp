@@ -157,6 +157,7 @@ DoorSighting sightingOf(const Told& told, const Wall& wall, const RgbdView& view
 void describe(base::ConfigVisitor& visitor, OpenDoorDetectorConfig& config) {
   visitor.section("open_doors", "openings in the walls of RGB-D images, and leaves that stand open");
   visitor.key("enabled", config.enabled, "look for them");
+  visitor.key("from_laser", config.fromLaser, "look for leaves in scans, too");
   visitor.key("least_width", config.leastWidth, "m", {0.3, 2.0}, "between the jambs");
   visitor.key("most_width", config.mostWidth, "m", {0.6, 5.0}, "between the jambs");
   visitor.key("most_plain", config.mostPlain, "m", {0.6, 5.0}, "wider ones need a lintel: else they are corridors");

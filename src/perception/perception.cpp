@@ -16,6 +16,7 @@ namespace {
 constexpr base::Duration kSameImage = std::chrono::milliseconds(20);
 /// A frame that comes this much too early for its rate is taken all the same: clocks jitter.
 constexpr double kEarly = 0.8;
+constexpr double kScanRate = 5.0;  // of scans that leaves are looked for in, at most, 1/s
 
 bool hasDepth(const sensors::RgbdFrame& frame) {
   return std::ranges::any_of(frame.depth.pixels(), [](float depth) { return depth > 0.0F && std::isfinite(depth); });
@@ -62,10 +63,12 @@ class Perception::Implementation {
   };
 
   base::EntityId newId() { return std::exchange(next_, base::EntityId{next_.value + 1}); }
-  bool isDue(base::Time time);
+  static bool isDue(base::Time time, double rate, std::optional<base::Time>& last);
   bool hasNetworksOrLabels() const { return !config_.people.models.empty() || config_.people.fromLabels; }
   bool seesPeople() const { return hasNetworksOrLabels() || hasSideFile_; }
 
+  void perceiveScan(const Place& place, const sensors::LaserScan& scan, const EntityMemory::SubMapPoses& poses,
+                    base::StageTimes& times);
   void perceiveFrame(const Place& place, const sensors::RgbdFrame& frame, const EntityMemory::SubMapPoses& poses,
                      base::StageTimes& times, std::map<std::string, std::int64_t>& notLookedAt);
   void findDoorsAndStairs(const RgbdView& view, base::SubMapId submap, const EntityMemory::SubMapPoses& poses,
@@ -80,6 +83,7 @@ class Perception::Implementation {
   DebugImages* debug_;
   int frames_ = 0;
   std::optional<base::Time> lastLook_;
+  std::optional<base::Time> lastScan_;
   base::EntityId next_;
   EntityMemory memory_;
   PersonDetector detector_;
@@ -94,12 +98,21 @@ void Perception::Implementation::perceive(const Place& place, const EntityMemory
   const auto& data = place.placed.reading.data;
   if (const auto* frame = std::get_if<sensors::RgbdFrame>(&data))
     perceiveFrame(place, *frame, poses, times, notLookedAt);
-  const auto* scan = std::get_if<sensors::LaserScan>(&data);
+  if (const auto* scan = std::get_if<sensors::LaserScan>(&data)) perceiveScan(place, *scan, poses, times);
+}
+
+void Perception::Implementation::perceiveScan(const Place& place, const sensors::LaserScan& scan,
+                                              const EntityMemory::SubMapPoses& poses, base::StageTimes& times) {
   const auto time = place.placed.reading.time;
-  if (scan != nullptr && config_.people.enabled && config_.people.fromLaser && !seesPeople() && tracker_.wants(time)) {
+  const auto& T_submap_body = place.placed.T_submap_body;
+  if (isDue(time, kScanRate, lastScan_)) {
+    const auto timing = times.measure("open_doors");
+    const auto doors = findOpenDoors(scan, T_submap_body, place.floor_z, time, config_.openDoors);
+    memory_.add(place.submap.node.id, T_submap_body * scan.T_body_sensor, doors, poses);
+  }
+  if (config_.people.enabled && config_.people.fromLaser && !seesPeople() && tracker_.wants(time)) {
     const auto timing = times.measure("people");
-    const auto& T_submap_body = place.placed.T_submap_body;
-    follow(place.submap, time, findLegs(*scan, T_submap_body, time));
+    follow(place.submap, time, findLegs(scan, T_submap_body, time));
   }
 }
 
@@ -126,16 +139,16 @@ void Perception::Implementation::perceiveFrame(const Place& place, const sensors
                       .T_submap_camera = place.placed.T_submap_body * frame.T_body_camera,
                       .floor_z = place.floor_z,
                       .movers = place.placed.movers};
-  if (isDue(view.time)) findDoorsAndStairs(view, place.submap.node.id, poses, times);
+  if (isDue(view.time, config_.rate, lastLook_)) findDoorsAndStairs(view, place.submap.node.id, poses, times);
   if (!config_.people.enabled) return;
   const auto timing = times.measure("people");
   if (hasNetworksOrLabels() && !hasSideFile_ && tracker_.wants(view.time)) findPeople(view, place);
   waitForSideFile(view, place);
 }
 
-bool Perception::Implementation::isDue(base::Time time) {
-  if (lastLook_ && base::seconds(time - *lastLook_) < kEarly / config_.rate) return false;
-  lastLook_ = time;
+bool Perception::Implementation::isDue(base::Time time, double rate, std::optional<base::Time>& last) {
+  if (last && base::seconds(time - *last) < kEarly / rate) return false;
+  last = time;
   return true;
 }
 
@@ -221,8 +234,11 @@ void Perception::Implementation::addTo(map::MapChange& change) {
 }
 
 void Perception::Implementation::save(base::ByteWriter& out) const {
-  out << frames_ << lastLook_.has_value();
-  if (lastLook_) out << base::toNanoseconds(*lastLook_);
+  out << frames_;
+  for (const auto& last : {lastLook_, lastScan_}) {
+    out << last.has_value();
+    if (last) out << base::toNanoseconds(*last);
+  }
   out << next_.value << hasSideFile_;
   memory_.save(out);
   tracker_.save(out);
@@ -230,8 +246,10 @@ void Perception::Implementation::save(base::ByteWriter& out) const {
 
 void Perception::Implementation::load(base::ByteReader& in) {
   in >> frames_;
-  lastLook_.reset();
-  if (in.read<bool>()) lastLook_ = base::fromNanoseconds(in.read<std::int64_t>());
+  for (auto* last : {&lastLook_, &lastScan_}) {
+    last->reset();
+    if (in.read<bool>()) *last = base::fromNanoseconds(in.read<std::int64_t>());
+  }
   in >> next_.value >> hasSideFile_;
   memory_.load(in);
   tracker_.load(in);

@@ -13,6 +13,7 @@ namespace prodomos::perception {
 
 struct OpenDoorDetectorConfig {
   bool enabled = true;
+  bool fromLaser = true;      ///< look for leaves in scans, too
   double leastWidth = 0.6;    ///< metres between the jambs
   double mostWidth = 2.4;     ///< metres
   double mostPlain = 1.3;     ///< metres; wider ones need a lintel: else they are the mouths of corridors
@@ -26,5 +27,10 @@ void describe(base::ConfigVisitor& visitor, OpenDoorDetectorConfig& config);
 /// is seen: hasLeaf, openAngle) and doorways without a leaf (hasLeaf false). `debug` may be null.
 std::vector<DoorSighting> findOpenDoors(const RgbdView& view, const Surfaces& surfaces,
                                         const OpenDoorDetectorConfig& config, DebugImages* debug = nullptr);
+
+/// Doors of one leaf that stand open or ajar, as one scan of a level laser shows them: a gap between jambs, and a leaf
+/// at one of these that would close it.
+std::vector<DoorSighting> findOpenDoors(const sensors::LaserScan& scan, const geometry::Pose3& T_submap_body,
+                                        double floor_z, base::Time time, const OpenDoorDetectorConfig& config);
 
 }  // namespace prodomos::perception
