@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prodomos/perception/staircase_detector.hpp"
 
+#include "prodomos/io/open_source.hpp"
+
 #include "perception/depth_scene.hpp"
+#include "support/corridor_doors.hpp"
 #include "support/datasets.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -13,6 +16,7 @@
 #include <filesystem>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace prodomos::perception {
 namespace {
@@ -343,6 +347,36 @@ TEST(StaircaseDetector, FindsTheLowRealStaircaseInBothViews) {
     EXPECT_NEAR(found[0].slope, 0.35, 0.1) << kinect.file;
     EXPECT_NEAR(found[0].width, 0.83, 0.15) << kinect.file;
     EXPECT_GT(found[0].evidence, 0.0) << kinect.file;
+  }
+}
+
+/// Where a frame was taken, over a floor of height 0: as recorded before it, else by the floor that it shows.
+std::optional<Pose3> placeOf(const sensors::RgbdFrame& frame, const std::optional<Pose3>& T_world_body) {
+  if (T_world_body) return *T_world_body * frame.T_body_camera;
+  return test::levelByFloor(frame);
+}
+
+TEST(StaircaseDetector, FindsNoneInRealRoomsAndCorridorsWithoutAny) {
+  constexpr int kEvery = 10;
+  for (const char* name : {"rgbd/icsl_corridor", "rgbd/tum_fr1_rpy", "rgbd/tum_fr3_structure"}) {
+    const auto log = test::dataset(name);
+    if (!log) GTEST_SKIP() << "needs " << name;
+    const auto source = io::openSource(*log);
+    std::optional<Pose3> T_world_body;
+    int frames = 0;
+    int looked = 0;
+    for (auto item = source->next(); !std::holds_alternative<sensors::EndOfLog>(item); item = source->next()) {
+      const auto* reading = std::get_if<sensors::Reading>(&item);
+      if (reading == nullptr) continue;
+      if (const auto* pose = std::get_if<sensors::RecordedPose>(&reading->data)) T_world_body = pose->T_world_body;
+      const auto* frame = std::get_if<sensors::RgbdFrame>(&reading->data);
+      if (frame == nullptr || frames++ % kEvery != 0) continue;
+      const auto T_world_camera = placeOf(*frame, T_world_body);
+      if (!T_world_camera) continue;
+      EXPECT_TRUE(sightings(*frame, *T_world_camera, 0.0).empty()) << name << ", frame " << frames - 1;
+      ++looked;
+    }
+    EXPECT_GT(looked, frames / kEvery / 2) << name;
   }
 }
 
