@@ -25,6 +25,7 @@ constexpr double kLeastSpace = 2.0;    // m²; what is smaller is no room
 constexpr double kMostlyUnseen = 0.5;  // m² not seen for one that was: less, and the room is known
 constexpr double kLeastMove = 1e-3;    // metres, radians; what moves less need not be told
 constexpr double kStairsLead = 0.97;   // that a true flight leads somewhere
+constexpr double kFirstStep = 0.8;     // metres behind a door: where one is in the room
 constexpr double kPlacedAt = 0.1;      // metres, radians: how well a door's sub-map is known to lie behind it
 
 bool opensSpace(const map::Entity& entity) {
@@ -79,10 +80,10 @@ Predictor::Predictor(const PredictionConfig& config, const map::MapView& before)
   for (const auto& prediction : before.predictions()) {
     nextId_.value = std::max(nextId_.value, prediction.id.value + 1);
     if (prediction.node == prediction.submap) continue;  // of a walk
-    Bet bet{.prediction = prediction, .node = {}, .edge = {}};
+    Bet bet{.prediction = prediction, .node = {}, .ways = {}};
     if (const auto* node = before.graph().findNode(prediction.node)) {
       bet.node = *node;
-      bet.edge = before.graph().getEdge(before.graph().edgesOf(node->id).at(0));
+      for (const auto id : before.graph().edgesOf(node->id)) bet.ways.push_back(before.graph().getEdge(id));
     }
     bets_.push_back(std::move(bet));
   }
@@ -90,6 +91,16 @@ Predictor::Predictor(const PredictionConfig& config, const map::MapView& before)
 
 void Predictor::update(const World& world, std::optional<base::SubMapId> seen) {
   if (!config_.enabled) return;
+  lookThroughOpenings(world, seen);
+  walks_.update(
+      world, seen, [this] { return newId(); }, refusals_);
+}
+
+void Predictor::glance(const World& world, base::SubMapId seen) {
+  if (config_.enabled) lookThroughOpenings(world, seen);
+}
+
+void Predictor::lookThroughOpenings(const World& world, std::optional<base::SubMapId> seen) {
   review(world);
   const auto* const news = seen ? findById(world.nodes, *seen) : nullptr;
   for (const auto& entity : world.entities) {
@@ -99,14 +110,18 @@ void Predictor::update(const World& world, std::optional<base::SubMapId> seen) {
     const Eigen::Vector3d spot_in_map = submap->T_map_submap * entity.T_submap_entity.translation();
     if (news != nullptr && (news->T_map_submap.translation() - spot_in_map).norm() > kReach) continue;
     const auto known = std::ranges::find(bets_, entity.id, [](const Bet& bet) { return bet.prediction.cause; });
-    if (known == bets_.end()) {
+    if (known != bets_.end()) {
+      if (known->prediction.state == PredictionState::kOpen) follow(world, entity, *submap, *known);
+      continue;
+    }
+    auto* const room = roomBehind(entity, *submap);
+    leave(entity.id, room);
+    if (room != nullptr) {
+      share(world, entity, *submap, *room);
+    } else {
       bet(world, entity, *submap);
-    } else if (known->prediction.state == PredictionState::kOpen) {
-      follow(world, entity, *submap, *known);
     }
   }
-  walks_.update(
-      world, seen, [this] { return newId(); }, refusals_);
 }
 
 /// Predicted sub-maps follow those that their doors were seen from; a bet on what is believed no more is lost. Entities
@@ -120,8 +135,47 @@ void Predictor::review(const World& world) {
     if (isGone && submap->session == world.session) {
       settle(bet, PredictionState::kRefuted, world);
     } else {
-      place(bet, *submap);
+      place(world, bet, *submap);
     }
+  }
+}
+
+/// Where another door leads into a room that is bet on already: that bet.
+Predictor::Bet* Predictor::roomBehind(const map::Entity& entity, const map::Node& submap) {
+  if (!std::holds_alternative<map::Door>(entity.attributes)) return nullptr;
+  const Pose3 T_map_here = submap.T_map_submap * T_submap_here(entity);
+  const Eigen::Vector3d inside_in_map = T_map_here * Eigen::Vector3d(kFirstStep, 0.0, 0.0);
+  const auto found = std::ranges::find_if(bets_, [&](const Bet& bet) {
+    const Eigen::Vector3d inside_in_node = bet.node.T_map_submap.inverse() * inside_in_map;
+    return bet.prediction.state == PredictionState::kOpen && std::abs(inside_in_node.z()) < Surroundings::kSameFloor &&
+           geometry::contains(bet.prediction.room_in_node, inside_in_node.head<2>());
+  });
+  return found == bets_.end() ? nullptr : &*found;
+}
+
+void Predictor::share(const World& world, const map::Entity& entity, const map::Node& submap, Bet& room) {
+  if (std::ranges::count(room.ways, std::optional(entity.id), &map::Edge::cause) == 0) {
+    map::Edge way;
+    way.id = world.newEdgeId();
+    way.kind = map::EdgeKind::kDoor;
+    way.cause = entity.id;
+    way.information = informationOf(entity);
+    way.from = submap.id;
+    room.ways.push_back(way);
+    room.isNews = true;
+  }
+  if (const auto* const first = findById(world.nodes, room.prediction.submap)) place(world, room, *first);
+}
+
+/// Rooms that are thought smaller now are no longer behind the door.
+void Predictor::leave(base::EntityId entity, const Bet* except) {
+  for (auto& bet : bets_) {
+    if (&bet == except || bet.prediction.state != PredictionState::kOpen) continue;
+    std::erase_if(bet.ways, [&](const map::Edge& way) {
+      const bool leaves = way.cause == entity;
+      if (leaves) removedWays_.push_back(way.id);
+      return leaves;
+    });
   }
 }
 
@@ -197,12 +251,14 @@ void Predictor::bet(const World& world, const map::Entity& entity, const map::No
   bet.node.id = bet.prediction.node = world.newNodeId();
   bet.node.kind = map::SubMapKind::kPredicted;
   bet.node.begin = bet.node.end = world.now;
-  bet.edge.id = world.newEdgeId();
-  bet.edge.kind = std::holds_alternative<map::Door>(entity.attributes) ? map::EdgeKind::kDoor : map::EdgeKind::kStairs;
-  bet.edge.cause = entity.id;
-  bet.edge.information = informationOf(entity);
+  map::Edge way;
+  way.id = world.newEdgeId();
+  way.kind = std::holds_alternative<map::Door>(entity.attributes) ? map::EdgeKind::kDoor : map::EdgeKind::kStairs;
+  way.cause = entity.id;
+  way.information = informationOf(entity);
+  bet.ways = {way};
   bet.isNews = true;
-  place(bet, submap);
+  place(world, bet, submap);
   events_.push_back(eventOf(bet.prediction, world.session, world.now));
   bets_.push_back(std::move(bet));
 }
@@ -220,24 +276,27 @@ void Predictor::follow(const World& world, const map::Entity& entity, const map:
   if (space.seen + space.unseen < kLeastSpace) return settle(bet, PredictionState::kRefuted, world);
   if (!shape(world, entity, around, bet.prediction)) return settle(bet, PredictionState::kRefuted, world);
   bet.prediction.viewpoint_in_submap = viewpointOf(world, entity, submap, around);
-  bet.edge.information = informationOf(entity);
+  bet.ways.front().information = informationOf(entity);
   bet.isNews = true;
-  place(bet, submap);
+  place(world, bet, submap);
 }
 
 /// Where the predicted sub-map lies, as its observed one does.
-void Predictor::place(Bet& bet, const map::Node& submap) {
+void Predictor::place(const World& world, Bet& bet, const map::Node& submap) {
   auto& node = bet.node;
   const Pose3& T_submap_node = bet.prediction.T_submap_node;
   const Pose3 T_map_node = submap.T_map_submap * T_submap_node;
   bet.isNews |= !isSame(node.T_map_submap, T_map_node);
   node.session = submap.session;
-  if (bet.edge.kind == map::EdgeKind::kDoor) node.floor = submap.floor;
+  if (bet.ways.front().kind == map::EdgeKind::kDoor) node.floor = submap.floor;
   node.T_map_submap = T_map_node;
   node.T_travel_submap = submap.T_travel_submap * T_submap_node;
-  bet.edge.from = submap.id;
-  bet.edge.to = node.id;
-  bet.edge.T_from_to = T_submap_node;
+  bet.ways.front().from = submap.id;
+  for (auto& way : bet.ways) {
+    way.to = node.id;
+    const auto* const from = findById(world.nodes, way.from);
+    if (from != nullptr) way.T_from_to = from->T_map_submap.inverse() * T_map_node;
+  }
 }
 
 void Predictor::settle(Bet& bet, PredictionState state, const World& world, std::optional<base::SubMapId> mergedInto) {
@@ -254,11 +313,12 @@ void Predictor::addTo(map::MapChange& change) {
     change.predictions.push_back(bet.prediction);
     if (bet.prediction.state == PredictionState::kOpen) {
       change.nodes.push_back(bet.node);
-      change.edges.push_back(bet.edge);
+      change.edges.insert(change.edges.end(), bet.ways.begin(), bet.ways.end());
     } else {
       change.removedNodes.push_back(bet.node.id);
     }
   }
+  for (const auto way : std::exchange(removedWays_, {})) change.removedEdges.push_back(way);
   for (auto& event : std::exchange(events_, {})) change.events.push_back(std::move(event));
   walks_.addTo(change);
   refusals_.addTo(change);

@@ -65,6 +65,17 @@ class World {
     return door.id;
   }
 
+  /// In the lower wall of a corridor, to the room below it.
+  base::EntityId addDoorBack(base::SubMapId submap, double x) {
+    auto door = entities_.front();
+    door.id = {static_cast<std::int64_t>(entities_.size()) + 1};
+    door.submap = submap;
+    door.T_submap_entity = geometry::toPose3({x, -1.0, -std::numbers::pi / 2.0});
+    entities_.push_back(door);
+    store_.commit({.entities = {door}});
+    return door.id;
+  }
+
   base::EntityId addStairs(double height) {
     map::Entity stairs;
     stairs.id = {static_cast<std::int64_t>(entities_.size()) + 1};
@@ -89,14 +100,28 @@ class World {
 
   /// As the mapper does at the end of a sub-map.
   map::MapChange update(Predictor& predictor, double now) {
-    predictor.update({.now = base::fromNanoseconds(std::int64_t(now * 1e9)),
-                      .session = {1},
-                      .entities = entities_,
-                      .nodes = nodes_,
-                      .gridsNear = [this](const Eigen::Vector3d&) { return grids_; },
-                      .newNodeId = [this] { return base::SubMapId{nextNode_++}; },
-                      .newEdgeId = [this] { return base::EdgeId{nextEdge_++}; }},
-                     std::nullopt);
+    predictor.update(known(now), std::nullopt);
+    return commit(predictor);
+  }
+  /// As it does on the way.
+  map::MapChange glance(Predictor& predictor, double now) {
+    predictor.glance(known(now), nodes_.back().id);
+    return commit(predictor);
+  }
+  map::MapView view() const { return store_.view(); }
+  const std::vector<PlacedGrid>& grids() const { return grids_; }
+
+ private:
+  prediction::World known(double now) {
+    return {.now = base::fromNanoseconds(std::int64_t(now * 1e9)),
+            .session = {1},
+            .entities = entities_,
+            .nodes = nodes_,
+            .gridsNear = [this](const Eigen::Vector3d&) { return grids_; },
+            .newNodeId = [this] { return base::SubMapId{nextNode_++}; },
+            .newEdgeId = [this] { return base::EdgeId{nextEdge_++}; }};
+  }
+  map::MapChange commit(Predictor& predictor) {
     map::MapChange change;
     predictor.addTo(change);
     map::MapChange copy;
@@ -108,10 +133,7 @@ class World {
     store_.commit(change);
     return copy;
   }
-  map::MapView view() const { return store_.view(); }
-  const std::vector<PlacedGrid>& grids() const { return grids_; }
 
- private:
   map::MapStore store_ = map::MapStore::inMemory();
   std::vector<map::Node> nodes_;
   std::vector<PlacedGrid> grids_;
@@ -188,6 +210,61 @@ TEST(Predictor, TwoDoorsDoNotShareTheirFloor) {
   const auto cells = geometry::cellsIn(other, 0.1);
   const auto shared = std::ranges::count_if(cells, [&](auto cell) { return taken.at(cell) != 0; });
   EXPECT_LT(static_cast<double>(shared), 0.02 * static_cast<double>(cells.size()));
+}
+
+TEST(Predictor, TwoDoorsIntoOneRoomLeadToOneNode) {
+  World world;
+  const auto first = world.addDoor(0.0);
+  Predictor predictor({}, world.view());
+  world.update(predictor, 5.0);
+  // A second corridor runs behind the room, and a door of it leads back into the room.
+  const auto depth = [&] {
+    const auto view = world.view();
+    const auto& bet = view.predictions().at(0);
+    double farthest = 0.0;
+    for (const auto& corner : bet.room_in_node) farthest = std::max(farthest, corner.x());
+    return bet.T_submap_node.translation().y() + farthest;
+  }();
+  const auto behind = world.addSubMap({0.0, depth + 1.2, 0.0}, roomWithGap(200, 22, 0), {-100, -11});
+  const auto second = world.addDoorBack(behind, 0.3);
+  world.update(predictor, 6.0);
+  world.update(predictor, 7.0);
+  const auto view = world.view();
+  ASSERT_THAT(view.predictions(), SizeIs(1));
+  const auto node = view.predictions()[0].node;
+  const auto ways = view.graph().edgesOf(node);
+  ASSERT_THAT(ways, SizeIs(2));
+  EXPECT_EQ(view.graph().getEdge(ways[0]).cause, first);
+  EXPECT_EQ(view.graph().getEdge(ways[1]).cause, second);
+  const auto& way = view.graph().getEdge(ways[1]);
+  EXPECT_EQ(way.from, behind);
+  EXPECT_TRUE((view.graph().getNode(behind).T_map_submap * way.T_from_to)
+                  .isApprox(view.graph().getNode(node).T_map_submap, 1e-9));
+  // The door turns out to be none.
+  world.remove(second);
+  world.update(predictor, 8.0);
+  EXPECT_EQ(world.view().predictions()[0].state, PredictionState::kOpen);
+}
+
+TEST(Predictor, SaysWhereToStand) {
+  World world;
+  world.addDoor(0.0);
+  Predictor predictor({}, world.view());
+  world.update(predictor, 5.0);
+  const auto view = world.view();
+  const auto viewpoint = view.predictions().at(0).viewpoint_in_submap;
+  ASSERT_TRUE(viewpoint);
+  EXPECT_NEAR(viewpoint->x, 0.0, 0.15);
+  EXPECT_NEAR(viewpoint->y, 0.2, 0.15) << "0.8 m before the wall";
+  EXPECT_NEAR(viewpoint->theta, std::numbers::pi / 2.0, 0.2);
+}
+
+TEST(Predictor, BetsWhileTheRobotIsStillInTheSubMap) {
+  World world;
+  world.addDoor(0.0);
+  Predictor predictor({}, world.view());
+  world.glance(predictor, 5.0);
+  EXPECT_THAT(world.view().predictions(), SizeIs(1));
 }
 
 TEST(Predictor, WinsWhereTheRoomIsSeen) {

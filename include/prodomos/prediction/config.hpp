@@ -8,7 +8,7 @@ namespace prodomos::prediction {
 
 struct PredictionConfig {
   bool enabled = true;
-  double leastProbability = 0.3;  ///< bets that are less likely to come true are not made
+  double leastProbability = 0.5;  ///< bets that are less likely to come true are not made
   double robotRadius = 0.25;      ///< metres, where it stands to enter
   ExtrapolationConfig extrapolation;
 };

@@ -28,6 +28,8 @@ class Predictor {
   /// Makes bets, shapes open ones anew and settles them: those of entities no farther than `reach` from the sub-map, in
   /// which something new was seen; of all, where none is named.
   void update(const World& world, std::optional<base::SubMapId> seen);
+  /// The same while the robot is still in the sub-map, of doors and stairs alone: people are on their ways still.
+  void glance(const World& world, base::SubMapId seen);
 
   /// Entities that M(S) refused in this session, by reason.
   std::map<std::string, std::int64_t> refused() const { return refusals_.byReason(); }
@@ -38,18 +40,22 @@ class Predictor {
   struct Bet {
     map::Prediction prediction;
     map::Node node;
-    map::Edge edge;
+    std::vector<map::Edge> ways;  ///< the first through its cause, others through further doors of the same room
     bool isNews = false;
   };
 
   base::PredictionId newId() { return std::exchange(nextId_, base::PredictionId{nextId_.value + 1}); }
+  void lookThroughOpenings(const World& world, std::optional<base::SubMapId> seen);
   void review(const World& world);
+  Bet* roomBehind(const map::Entity& entity, const map::Node& submap);
+  void share(const World& world, const map::Entity& entity, const map::Node& submap, Bet& room);
+  void leave(base::EntityId entity, const Bet* except);
   void bet(const World& world, const map::Entity& entity, const map::Node& submap);
   void follow(const World& world, const map::Entity& entity, const map::Node& submap, Bet& bet);
   void settle(Bet& bet, map::PredictionState state, const World& world, std::optional<base::SubMapId> mergedInto = {});
   std::optional<double> shape(const World& world, const map::Entity& entity, const Surroundings& around,
                               map::Prediction& prediction);
-  void place(Bet& bet, const map::Node& submap);
+  void place(const World& world, Bet& bet, const map::Node& submap);
   std::optional<geometry::Pose2> viewpointOf(const World& world, const map::Entity& entity, const map::Node& submap,
                                              const Surroundings& around) const;
   Surroundings surroundingsOf(const World& world, const map::Entity& entity, const map::Node& submap) const;
@@ -60,6 +66,7 @@ class Predictor {
   Refusals refusals_;
   base::PredictionId nextId_{0};
   std::vector<map::Event> events_;
+  std::vector<base::EdgeId> removedWays_;
 };
 
 }  // namespace prodomos::prediction
