@@ -30,7 +30,7 @@ constexpr std::uint64_t kDraws = 2;  // of the rooms that were seen, in training
 constexpr std::size_t kFolds = 3;
 constexpr float kLargeRoom = 0.15F;  // weight of rooms of more than 60 m²: they are not what guesses are judged on
 constexpr BoostOptions kWalls{.trees = 80, .rate = 0.09, .leastHessian = 15.0};
-constexpr BoostOptions kSpace{.trees = 40, .rate = 0.1, .leastHessian = 15.0};
+constexpr BoostOptions kSpace{.trees = 120, .rate = 0.1, .leastHessian = 10.0};
 
 /// Questions of one plan, with the true answers.
 struct Lessons {

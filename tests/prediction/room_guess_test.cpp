@@ -164,7 +164,7 @@ TEST(RoomGuess, SeenFloorBehindTheDoorLeavesNothingToGuess) {
 
 TEST(RoomGuess, AThinGapBehindTheDoorIsNoSpace) {
   auto around = corridor();
-  addRoom(around, {0.7, 6.0, -8.0, 8.0});
+  addRoom(around, {0.3, 6.0, -4.0, 4.0});
   const auto guess = guessRoom(around, kWidth);
   EXPECT_LT(guess.spaceProbability, 0.4);
   EXPECT_LT(guess.spaceProbability, guessRoom(corridor(), kWidth).spaceProbability - 0.3);
