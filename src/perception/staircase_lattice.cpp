@@ -216,7 +216,7 @@ std::optional<FoundLattice> findLattice(std::span<const FlightPoint> points, dou
     turn = -std::atan(refine(found.lattice, turned, mayTurn));
     const StepLattice& lattice = found.lattice;
     if (!(lattice.rise > kLeastRise && lattice.rise < kMostRise && lattice.depth > kLeastDepth &&
-          lattice.depth < kMostDepth)) {
+          lattice.depth < kMostDepth && lattice.slope() < kSteepest)) {
       return std::nullopt;
     }
   }

@@ -15,6 +15,7 @@ inline constexpr double kLeastRise = 0.05;   // metres
 inline constexpr double kMostRise = 0.25;    // metres
 inline constexpr double kLeastDepth = 0.18;  // metres
 inline constexpr double kMostDepth = 0.50;   // metres
+inline constexpr double kSteepest = 1.0;     // rise over run; nobody walks up where treads are shorter than risers
 
 /// A point in a flight's frame (x uphill, y to the left, z up; metres), and how far its depth may be off.
 struct FlightPoint {

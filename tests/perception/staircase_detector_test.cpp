@@ -237,6 +237,14 @@ TEST(StaircaseDetector, BoxesPiledUpLikeStepsAreTooLongForAPace) {
   for (const auto& sighting : sightings(scene, cameraAt({0.0, 0.0, 1.2}, 0.0, 0.1))) EXPECT_LT(sighting.evidence, 0.0);
 }
 
+TEST(StaircaseDetector, WhatIsSteeperThanAnyStairsIsNoStaircase) {
+  for (const double depth : {0.19, 0.21}) {  // as boxes on shelves may lie by chance
+    DepthScene scene;
+    add(scene, {.T_world_foot = at(1.8, 0.0, 0.3), .steps = 7, .rise = 0.23, .depth = depth, .width = 0.6});
+    EXPECT_TRUE(sightings(scene, cameraAt({0.0, 0.0, 1.2}, 0.0)).empty()) << depth;
+  }
+}
+
 TEST(StaircaseDetector, ShelvesAreNoStaircase) {
   DepthScene scene;
   scene.addBox(at(2.9, 0.0, 0.0, 0.9), {0.03, 1.6, 1.8});  // back
