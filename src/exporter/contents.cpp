@@ -39,7 +39,9 @@ geometry::Pose3 poseInMap(const map::MapView& view, const map::Entity& entity) {
 }
 
 const map::Prediction* predictionOf(const map::MapView& view, base::SubMapId node) {
-  const auto found = std::ranges::find(view.predictions(), node, &map::Prediction::node);
+  const auto found = std::ranges::find_if(view.predictions(), [node](const auto& prediction) {
+    return prediction.node == node && !prediction.isConditional();
+  });
   return found == view.predictions().end() ? nullptr : &*found;
 }
 

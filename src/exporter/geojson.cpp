@@ -69,6 +69,7 @@ Json areaFeature(const map::MapView& view, const map::Prediction& prediction, co
                   {"name", toString(prediction.id)},
                   {"state", toString(prediction.state)},
                   {"probability", number(prediction.probability)},
+                  {"if_person_leaves", prediction.isConditional()},
                   {"threshold", number(area.threshold)},
                   {"node", toString(prediction.node)},
                   {"floor", optionalJson(floorOf(view, prediction))}});

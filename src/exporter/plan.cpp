@@ -46,7 +46,8 @@ Eigen::AlignedBox2d extentOf(const map::MapView& view, const std::vector<map::Tr
   }
   for (const auto& prediction : view.predictions()) {
     const auto* const node = graph.findNode(prediction.node);
-    if (node == nullptr || !onFloor(node->floor, panel.floor)) continue;
+    const bool isOpen = prediction.state == map::PredictionState::kOpen;
+    if (node == nullptr || !isOpen || !onFloor(node->floor, panel.floor)) continue;
     const auto extendAll = [&](const std::vector<Eigen::Vector2d>& outline_in_node) {
       for (const auto& corner : outline_in_node) {
         extendTo(node->T_map_submap * Eigen::Vector3d(corner.x(), corner.y(), 0.0));

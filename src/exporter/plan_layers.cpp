@@ -94,11 +94,13 @@ Group drawPredictedAreas(const PlanContents& plan) {
                {.closed = true,
                 .style = filledAndStroked(withAlpha(kPredictedColor, 0.06), kPredictedColor, 0.9, {1.5, 2.5}),
                 .tip = nameOf(prediction) + ", likely room of " + brief(std::round(prediction.expectedArea)) + " m²"});
+    const auto color = prediction.isConditional() ? kHumanColor : kPredictedColor;
+    const std::string condition = prediction.isConditional() ? ", free if the person leaves" : "";
     for (const auto& area : prediction.areas) {
       addOutline(prediction, area.outline_in_node,
                  {.closed = true,
-                  .style = filledAndStroked(withAlpha(kPredictedColor, 0.13), kPredictedColor, 1.1, {5.0, 3.0}),
-                  .tip = nameOf(prediction) + ", threshold " + brief(area.threshold)});
+                  .style = filledAndStroked(withAlpha(color, 0.13), color, 1.1, {5.0, 3.0}),
+                  .tip = nameOf(prediction) + condition + ", threshold " + brief(area.threshold)});
     }
   }
   return group;

@@ -108,10 +108,11 @@ CSetOfObjects::Ptr predictionObjects(const map::MapView& view, const Pen& pen) {
   auto objects = group("predictions");
   for (const auto& prediction : view.predictions()) {
     const auto* node = view.graph().findNode(prediction.node);
-    if (node == nullptr) continue;
+    if (node == nullptr || prediction.state != map::PredictionState::kOpen) continue;
+    const auto color = prediction.isConditional() ? kHumanColor : kPredictedColor;
     map::Drawing drawing;
     for (const auto& area : prediction.areas) {
-      map::DrawnLine outline{{}, kPredictedColor, ""};
+      map::DrawnLine outline{{}, color, ""};
       for (const auto& point : area.outline_in_node) outline.points_in_submap.emplace_back(point.x(), point.y(), 0.02);
       if (!outline.points_in_submap.empty()) outline.points_in_submap.push_back(outline.points_in_submap.front());
       drawing.lines.push_back(std::move(outline));

@@ -164,13 +164,22 @@ Claims claimsAhead(const Surroundings& around, const Lookout& lookout, const geo
 void addClaimsAbout(const Eigen::Vector2d& position_in_here, const Surroundings& around,
                     const geometry::SkewNormal& density, Claims& claims) {
   const auto isOpen = [&around](CellIndex cell) { return around.state(cell) != CellState::kOccupied; };
+  const auto isBesideWall = [&isOpen](CellIndex cell) {
+    for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
+      for (int x = cell.x - 1; x <= cell.x + 1; ++x) {
+        if (!isOpen({x, y})) return true;
+      }
+    }
+    return false;
+  };
   const auto box = boxAbout(position_in_here, density.reach(kThresholds.front()));
   for (int y = box.first.y; y <= box.last.y; ++y) {
     for (int x = box.first.x; x <= box.last.x; ++x) {
       float* claim = claims.find({x, y});
       if (claim == nullptr || around.state(CellIndex{x, y}) != CellState::kUnknown) continue;
       const auto relative = static_cast<float>(density.relativeDensity(geometry::centreOf({x, y}, kCell)));
-      if (relative > *claim && isSeen(cellOf(position_in_here), {x, y}, isOpen)) *claim = relative;
+      if (relative <= *claim || isBesideWall({x, y})) continue;
+      if (isSeen(cellOf(position_in_here), {x, y}, isOpen)) *claim = relative;
     }
   }
 }

@@ -28,7 +28,7 @@ struct Lookout {
 Claims claimsAhead(const Surroundings& around, const Lookout& lookout, const geometry::SkewNormal& density,
                    const geometry::CellMap<float>* room, double leastProbability);
 
-/// Adds the unknown cells about a person that it sees over no known wall.
+/// Adds the unknown cells about a person that it sees over no known wall, but for those right beside one.
 void addClaimsAbout(const Eigen::Vector2d& position_in_here, const Surroundings& around,
                     const geometry::SkewNormal& density, Claims& claims);
 

@@ -79,7 +79,7 @@ Predictor::Predictor(const PredictionConfig& config, const map::MapView& before)
     : config_(config), walks_(config, before), refusals_(before) {
   for (const auto& prediction : before.predictions()) {
     nextId_.value = std::max(nextId_.value, prediction.id.value + 1);
-    if (prediction.node == prediction.submap) continue;  // of a walk
+    if (prediction.isConditional()) continue;
     Bet bet{.prediction = prediction, .node = {}, .ways = {}};
     if (const auto* node = before.graph().findNode(prediction.node)) {
       bet.node = *node;

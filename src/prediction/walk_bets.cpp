@@ -26,10 +26,6 @@ constexpr double kCell = Surroundings::kCell;
 constexpr double kFloorIsFree = 0.97;  // that what is told of a true person's way comes true
 constexpr double kMostWrong = 0.2;     // of a bet that is confirmed
 
-bool isOfWalk(const map::Prediction& prediction) {
-  return prediction.node == prediction.submap;
-}
-
 const geometry::Polygon& wholeOf(const map::Prediction& prediction) {
   return prediction.areas.front().outline_in_node;
 }
@@ -118,7 +114,7 @@ std::vector<map::PredictedArea> areasWithin(const std::vector<map::PredictedArea
 
 WalkBets::WalkBets(const PredictionConfig& config, const map::MapView& before) : config_(config) {
   for (const auto& prediction : before.predictions()) {
-    if (isOfWalk(prediction)) bets_.push_back({prediction});
+    if (prediction.isConditional()) bets_.push_back({prediction});
   }
   if (before.sessions().empty() || before.sessions().back().state != map::SessionState::kRunning) return;
   for (auto& track : before.tracks()) {

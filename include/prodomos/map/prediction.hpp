@@ -39,6 +39,9 @@ struct Prediction {
   PredictionState state = PredictionState::kOpen;
   std::optional<base::Time> settled;
   std::optional<base::SubMapId> mergedInto;
+
+  /// Floor that is free if a person leaves, in the sub-map where it was seen: no sub-map of its own.
+  bool isConditional() const { return node == submap; }
 };
 
 /// "open", "confirmed", "refuted", "merged".

@@ -136,11 +136,12 @@ function paintSelectedArea(ctx, px) {
 
 function paintPrediction(ctx, px, prediction) {
   const settled = prediction.state !== 'open';
+  const color = byId.get(prediction.cause)?.class === 'human' ? colors.human : colors.predicted;
   for (const area of prediction.areas) {
     if (area.outline.length < 3) continue;
-    line(ctx, px, area.outline.concat([area.outline[0]]), colors.predicted, prediction.id === state.selection ? 2.5 : 1.25, [6, 4]);
+    line(ctx, px, area.outline.concat([area.outline[0]]), color, prediction.id === state.selection ? 2.5 : 1.25, [6, 4]);
     ctx.globalAlpha = settled ? 0.05 : 0.13;
-    ctx.fillStyle = colors.predicted;
+    ctx.fillStyle = color;
     ctx.fill();
     ctx.globalAlpha = 1;
   }
