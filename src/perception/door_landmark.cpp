@@ -154,11 +154,12 @@ void takeOver(DoorLandmark& kept, const DoorLandmark& other, const Frames& frame
   const bool opposed = areOpposed(headingHere(kept), headingHere(other));
   for (auto look : other.looks) {
     if (opposed) flip(look);
-    kept.looks.push_back(look);
+    auto& own = look.ofGrid ? lookOfGrid(kept.looks, look.submap) : kept.looks.emplace_back();
+    if (own.sightings == 0) own = look;
   }
   kept.leafAside += other.leafAside;
   kept.hingeAside += opposed ? -other.hingeAside : other.hingeAside;
-  while (kept.looks.size() > kMostLooks) kept.looks.erase(std::ranges::min_element(kept.looks, {}, &Look::sightings));
+  while (countOfReadings(kept.looks) > kMostLooks) kept.looks.erase(poorestOfReadings(kept.looks));
   kept.takeOver(other);
 }
 

@@ -72,6 +72,15 @@ std::optional<Likelihoods> toldByDepth(const DoorAppearance& appearance) {
   return isFromBefore ? kFilledFromBefore : kFilledFromAside;
 }
 
+/// What it said before does not count.
+DoorLook& newLookOfGrid(std::vector<DoorLook>& looks, base::SubMapId submap) {
+  auto& look = lookOfGrid(looks, submap);
+  look = DoorLook{};
+  look.submap = submap;
+  look.ofGrid = true;
+  return look;
+}
+
 double likelihoodToStay(const DoorLandmark& door) {
   return door.logOdds + (door.id && !door.isRivalled ? kClearlyLikelier : 0.0);
 }
@@ -97,29 +106,21 @@ void DoorMemory::add(const Frames& frames, const Eigen::Vector3d& sensor_in_subm
   update(frames, touched);
 }
 
-void DoorMemory::addFromGrid(const Frames& frames, std::span<const DoorSighting> doorways) {
+void DoorMemory::addFromGrid(const Frames& frames, std::span<const DoorSighting> doorways,
+                             const EntityMemory::ShowsNoDoorway& showsNone) {
   std::vector<DoorSighting> possible;
   std::ranges::copy_if(doorways, std::back_inserter(possible),
                        [this](const auto& d) { return isPossible(d, config_); });
   const auto landmarkOf = associate(frames, possible);
   std::vector<std::size_t> touched;
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
-    auto& looks = landmarks_[i].looks;
-    const auto look =
-        std::ranges::find_if(looks, [&](const auto& l) { return l.ofGrid && l.submap == frames.submap(); });
-    if (look == looks.end() || std::ranges::find(landmarkOf, i) != landmarkOf.end()) continue;
-    look->misses = 1;
-    look->evidence = look->sightings > 0 ? -look->evidence / look->sightings : look->evidence;
-    look->sightings = 0;
-    touched.push_back(i);
+    const bool isFound = std::ranges::find(landmarkOf, i) != landmarkOf.end();
+    if (!isFound && miss(landmarks_[i], frames, showsNone)) touched.push_back(i);
   }
   for (std::size_t i = 0; i < possible.size(); ++i) {
     if (!landmarkOf[i]) continue;
     auto& door = landmarks_[*landmarkOf[i]];
-    auto& look = lookOfGrid(door.looks, frames.submap());
-    look = DoorLook{};  // the grid's last word
-    look.submap = frames.submap();
-    look.ofGrid = true;
+    auto& look = newLookOfGrid(door.looks, frames.submap());
     fuse(look, possible[i], geometry::yaw(frames.T_submap_other(door.submap) * poseOf(door.pose_in_submap)), config_);
     door.noteDetection(possible[i].time);
     door.firstSeen = std::min(door.firstSeen, possible[i].since.value_or(door.firstSeen));
@@ -127,6 +128,21 @@ void DoorMemory::addFromGrid(const Frames& frames, std::span<const DoorSighting>
   }
   update(frames, touched);
   mergeAll(frames);
+}
+
+bool DoorMemory::miss(DoorLandmark& door, const Frames& frames, const EntityMemory::ShowsNoDoorway& showsNone) const {
+  if (!std::ranges::any_of(door.looks, &DoorLook::ofGrid)) return false;  // a grid never showed it: a leaf, perhaps
+  const bool isRefuted =
+      !hasLeaf(door) && showsNone(frames.T_submap_other(door.submap) * poseOf(door.pose_in_submap), door.width);
+  const bool hadItsSay = std::ranges::any_of(
+      door.looks, [&frames](const DoorLook& look) { return look.ofGrid && look.submap == frames.submap(); });
+  if (!isRefuted && !hadItsSay) return false;
+  auto& look = newLookOfGrid(door.looks, frames.submap());
+  if (isRefuted) {
+    look.misses = 1;
+    look.evidence = -config_.doorwayMiss;
+  }
+  return true;
 }
 
 std::vector<std::optional<std::size_t>> DoorMemory::associate(const Frames& frames,

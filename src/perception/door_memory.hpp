@@ -20,7 +20,8 @@ class DoorMemory {
   explicit DoorMemory(const EntityMemoryConfig& config) : config_(config) {}
 
   void add(const Frames& frames, const Eigen::Vector3d& sensor_in_submap, std::span<const DoorSighting> doors);
-  void addFromGrid(const Frames& frames, std::span<const DoorSighting> doorways);
+  void addFromGrid(const Frames& frames, std::span<const DoorSighting> doorways,
+                   const EntityMemory::ShowsNoDoorway& showsNone);
   void look(const Frames& frames, const RgbdView& view, const Surfaces& surfaces);
 
   std::vector<DoorLandmark>& landmarks() { return landmarks_; }
@@ -33,6 +34,8 @@ class DoorMemory {
  private:
   /// By sighting the index of its landmark, a new one where none is known; none: nothing new is learned of it.
   std::vector<std::optional<std::size_t>> associate(const Frames& frames, std::span<const DoorSighting> doors);
+  /// What a grid in which it is not found says of it: that it is none, or nothing. False: as before.
+  bool miss(DoorLandmark& door, const Frames& frames, const EntityMemory::ShowsNoDoorway& showsNone) const;
   void update(const Frames& frames, const std::vector<std::size_t>& touched);
   /// Makes one of two; the place of the other stays, empty, until prune().
   bool mergeIfSame(std::size_t i, std::size_t j, const Frames& frames);

@@ -7,9 +7,14 @@
 #include "perception/doorway_raster.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace prodomos::perception {
+
+using map::CellState;
 
 namespace {
 
@@ -27,6 +32,62 @@ DoorSighting sightingOf(const doorways::Opening& opening) {
   sighting.widthSigma = opening.sigma;
   sighting.evidence = opening.evidence;
   return sighting;
+}
+
+/// The states of the cells in a rectangle.
+class Patch {
+ public:
+  void add(CellState state) { ++counts_[static_cast<std::size_t>(state)]; }
+  /// 0 of an empty one.
+  double shareOf(CellState state) const {
+    const int all = std::accumulate(counts_.begin(), counts_.end(), 0);
+    return all == 0 ? 0.0 : static_cast<double>(counts_[static_cast<std::size_t>(state)]) / all;
+  }
+
+ private:
+  std::array<int, 3> counts_{};
+};
+
+struct Rectangle {
+  Eigen::Vector2d least;
+  Eigen::Vector2d most;
+};
+
+/// The rectangle is in the axes of `T_submap_axes`; its cells, to within half a one.
+Patch cellsWithin(const map::OccupancyGrid& grid, const geometry::Pose2& T_submap_axes, const Rectangle& rectangle) {
+  constexpr double kSlack = 1e-9;
+  Patch patch;
+  for (double x = rectangle.least.x(); x <= rectangle.most.x() + kSlack; x += grid.resolution()) {
+    for (double y = rectangle.least.y(); y <= rectangle.most.y() + kSlack; y += grid.resolution())
+      patch.add(grid.state(grid.cellAt(T_submap_axes * Eigen::Vector2d(x, y))));
+  }
+  return patch;
+}
+
+/// Whether there is something to be seen beyond: of the ways straight on and up to 50 degrees aside, some end at it.
+/// Beams that go through glass into the open come back from nothing.
+bool leadsSomewhere(const map::OccupancyGrid& grid, const Eigen::Vector2d& middle, double direction) {
+  constexpr int kWays = 21;
+  constexpr int kLeastEnds = 3;
+  constexpr double kFan = 100.0 / 180.0 * std::numbers::pi;
+  constexpr double kJambs = 0.5;  // metres from the middle, beyond the jambs
+  constexpr double kReach = 12.0;
+  int ends = 0;
+  for (int i = 0; i < kWays; ++i) {
+    const double angle = direction + kFan * (static_cast<double>(i) / (kWays - 1) - 0.5);
+    const Eigen::Vector2d ahead(std::cos(angle), std::sin(angle));
+    auto state = CellState::kFree;
+    for (double way = kJambs; way < kReach && state == CellState::kFree; way += grid.resolution()) {
+      state = grid.state(grid.cellAt(middle + way * ahead));
+    }
+    if (state == CellState::kOccupied) ++ends;
+  }
+  return ends >= kLeastEnds;
+}
+
+bool joinsSpaces(const map::OccupancyGrid& grid, const doorways::Opening& opening) {
+  return leadsSomewhere(grid, opening.middle, opening.direction) &&
+         leadsSomewhere(grid, opening.middle, opening.direction + std::numbers::pi);
 }
 
 /// Most lines are none, and that is seen from near by.
@@ -79,7 +140,7 @@ std::vector<DoorSighting> findDoorways(const map::OccupancyGrid& grid, const Eig
     const bool isKnown = std::any_of(found.begin(), found.end(), [&](const DoorSighting& other) {
       return (other.T_submap_door.translation().head<2>() - opening.middle).norm() < kApart;
     });
-    if (isKnown) continue;
+    if (isKnown || !joinsSpaces(grid, opening)) continue;
     auto sighting = sightingOf(opening);
     if (sighting.T_submap_door.linear().col(0).head<2>().dot(opening.middle - observer_in_submap) < 0.0) {
       sighting.T_submap_door.rotate(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()));
@@ -87,6 +148,32 @@ std::vector<DoorSighting> findDoorways(const map::OccupancyGrid& grid, const Eig
     found.push_back(std::move(sighting));
   }
   return found;
+}
+
+bool showsNoDoorway(const map::OccupancyGrid& grid, const geometry::Pose2& T_submap_doorway, double width) {
+  if (grid.state(grid.cellAt({T_submap_doorway.x, T_submap_doorway.y})) != CellState::kFree) return false;
+  const double half = 0.5 * width;
+  // In the doorway's axes: x along its normal, y along the wall. What is within 12 cm of a jamb may be its noise.
+  const auto gap = cellsWithin(grid, T_submap_doorway, {{-0.6, 0.12 - half}, {0.6, half - 0.12}});
+  if (gap.shareOf(CellState::kFree) + gap.shareOf(CellState::kOccupied) < 0.9 ||
+      gap.shareOf(CellState::kOccupied) > 0.05)
+    return false;
+  int open = 0;
+  int blocked = 0;
+  for (const double side : {-1.0, 1.0}) {
+    const auto jamb = cellsWithin(grid, T_submap_doorway, {{-0.15, side * half - 0.12}, {0.15, side * half + 0.12}});
+    if (jamb.shareOf(CellState::kOccupied) == 0.0) return true;
+    for (const double x : {-0.4, 0.2}) {  // a corner: a hand beyond the wall's middle, beside the jamb
+      const double first = side * (half + 0.06) - 0.04;
+      const auto corner = cellsWithin(grid, T_submap_doorway, {{x, first}, {x + 0.2, first + 0.08}});
+      if (corner.shareOf(CellState::kFree) > 0.5) {
+        ++open;
+      } else if (corner.shareOf(CellState::kOccupied) > 0.33) {
+        ++blocked;
+      }
+    }
+  }
+  return blocked >= 2 || open + blocked == 4;
 }
 
 }  // namespace prodomos::perception

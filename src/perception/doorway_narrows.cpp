@@ -203,6 +203,7 @@ int NarrowSearch::lineFrom(int u, int v, double du, double dv, int most) const {
 /// them may be a pillar where all else speaks for a wall.
 bool NarrowSearch::isOneWall(const JambPair& jambs, const Narrow& narrow) const {
   constexpr double kAskew = 0.04;
+  constexpr double kMostAskew = 0.2;  // where all corners are seen
   constexpr int kLeastRows = 3;
   constexpr double kPillar = 0.2;  // metres
   constexpr double kWide = 1.6;    // metres; all corners must be seen
@@ -210,7 +211,8 @@ bool NarrowSearch::isOneWall(const JambPair& jambs, const Narrow& narrow) const 
   if (jambs.count(Beside::kOpen) < 3 || jambs.count(Beside::kBlocked) > 0) return false;
   if (jambs.thinner().rows() < kLeastRows || jambs.rowsMore() > 2) return false;
   // The shortest way between walls that lie askew leads from a corner of one to the opposite corner of the other.
-  const double allowedShift = 1.0 + (isAskew_ ? jambs.thinner().rows() : kAskew * (narrow.right - narrow.left));
+  const double askew = jambs.count(Beside::kOpen) == 4 ? kMostAskew : kAskew;
+  const double allowedShift = 1.0 + (isAskew_ ? jambs.thinner().rows() : askew * (narrow.right - narrow.left));
   if (std::abs(jambs.shift()) > allowedShift) return false;
   const bool isWide = narrow.right - narrow.left > cells(kWide);
   if (isWide && jambs.count(Beside::kOpen) < 4) return false;

@@ -25,6 +25,8 @@ void describe(base::ConfigVisitor& visitor, EntityMemoryConfig& config) {
   visitor.key("submap_heading", config.submapHeading, "rad", {0.0, 0.5}, "likewise");
   visitor.key("door_miss", config.doorMiss, "log-odds", {0.0, 10.0}, "lost where a door is not found though well seen");
   visitor.key("stairs_miss", config.stairsMiss, "log-odds", {0.0, 10.0}, "the same of stairs");
+  visitor.key("doorway_miss", config.doorwayMiss, "log-odds", {0.0, 10.0},
+              "lost where a grid shows that there is no doorway");
   visitor.key("opening_against_leaf", config.openingAgainstLeaf, "log-odds", {0.0, 5.0},
               "against a leaf, of an opening in which none is seen");
   visitor.key("state_trust", config.stateTrust, "", {0.34, 0.999}, "that one reading tells a door's state rightly");
@@ -205,8 +207,8 @@ void EntityMemory::add(base::SubMapId submap, const geometry::Pose3& T_submap_se
 }
 
 void EntityMemory::addFromGrid(base::SubMapId submap, std::span<const DoorSighting> doorways,
-                               const SubMapPoses& poses) {
-  implementation_->doors.addFromGrid({submap, poses}, doorways);
+                               const ShowsNoDoorway& showsNone, const SubMapPoses& poses) {
+  implementation_->doors.addFromGrid({submap, poses}, doorways, showsNone);
   implementation_->settle(doorways.empty() ? base::Time{} : doorways.back().time);
 }
 

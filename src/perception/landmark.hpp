@@ -9,8 +9,10 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -96,10 +98,25 @@ class Frames {
   mutable std::map<base::SubMapId, geometry::Pose3> others_;
 };
 
-/// The look that a reading from there belongs to, a new one where the robot has moved on. There are at most
-/// `kMostLooks`: beyond, what lies nearest takes it.
+/// Of readings; each sub-map's grid has one more.
 inline constexpr std::size_t kMostLooks = 24;
 
+template <typename AnyLook>
+std::size_t countOfReadings(const std::vector<AnyLook>& looks) {
+  return looks.size() - static_cast<std::size_t>(std::ranges::count_if(looks, &AnyLook::ofGrid));
+}
+
+/// The one with the fewest sightings. There must be one.
+template <typename AnyLook>
+auto poorestOfReadings(std::vector<AnyLook>& looks) {
+  const auto sightings = [](const AnyLook& look) {
+    return look.ofGrid ? std::numeric_limits<int>::max() : look.sightings;
+  };
+  return std::ranges::min_element(looks, {}, sightings);
+}
+
+/// The look that a reading from there belongs to, a new one where the robot has moved on. There are at most
+/// `kMostLooks`: beyond, what lies nearest takes it.
 template <typename AnyLook>
 AnyLook& lookFrom(std::vector<AnyLook>& looks, base::SubMapId submap, const Eigen::Vector3d& sensor_in_submap,
                   double spacing) {
@@ -112,10 +129,9 @@ AnyLook& lookFrom(std::vector<AnyLook>& looks, base::SubMapId submap, const Eige
     nearest = &look;
     least = distance;
   }
-  if (nearest != nullptr && (least < spacing || looks.size() >= kMostLooks)) return *nearest;
-  if (looks.size() >= kMostLooks) {  // all of other sub-maps: the poorest one goes
-    looks.erase(std::ranges::min_element(looks, {}, &AnyLook::sightings));
-  }
+  const bool areMany = countOfReadings(looks) >= kMostLooks;
+  if (nearest != nullptr && (least < spacing || areMany)) return *nearest;
+  if (areMany) looks.erase(poorestOfReadings(looks));  // all of other sub-maps: the poorest one goes
   auto& look = looks.emplace_back();
   look.submap = submap;
   look.sensor_in_submap = sensor_in_submap;

@@ -213,7 +213,10 @@ void Perception::Implementation::lookAround(const Surroundings& around, const En
     doorway.time = around.end;
     doorway.since = around.begin;
   }
-  memory_.addFromGrid(around.submap, doorways, poses);
+  const auto showsNone = [&around](const geometry::Pose3& T_submap_doorway, double width) {
+    return showsNoDoorway(around.grid, geometry::toPose2(T_submap_doorway), width);
+  };
+  memory_.addFromGrid(around.submap, doorways, showsNone, poses);
 }
 
 void Perception::Implementation::enter(const geometry::Pose3& T_submap_before) {

@@ -193,7 +193,10 @@ class Drive {
     auto doorways = timed("doorways", [&] { return findDoorways(grid_, observer_, config_.doorways); });
     for (auto& doorway : doorways) doorway.time = now_;
     count("doorways", doorways);
-    memory_.addFromGrid(submap(), doorways, poses());
+    const auto showsNone = [this](const geometry::Pose3& T_submap_doorway, double width) {
+      return showsNoDoorway(grid_, geometry::toPose2(T_submap_doorway), width);
+    };
+    memory_.addFromGrid(submap(), doorways, showsNone, poses());
   }
 
   int storey() const { return evaluation::storeyAt(truth_, T_map_submap_.back().translation().z()); }

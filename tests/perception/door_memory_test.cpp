@@ -271,7 +271,7 @@ TEST(DoorMemory, DuplicatesOfDriftAreOneWhenTheirSubMapsConverge) {
   ASSERT_THAT(bench.entities(), SizeIs(2));
   bench.change();
   bench.submaps[1] = geometry::Pose3::Identity();
-  bench.memory.addFromGrid({1}, {}, bench.poses());
+  bench.addFromGrid(1, {});
   ASSERT_THAT(bench.entities(), SizeIs(1));
   EXPECT_EQ(bench.entities()[0].id, base::EntityId{1}) << "the one that was there first";
   EXPECT_EQ(bench.entities()[0].observations, 20);
@@ -300,14 +300,70 @@ TEST(DoorMemory, GridsTellOfDoorwaysAndTakeThemBack) {
     sighting.evidence = 4.0;
     return std::vector{sighting};
   };
-  bench.memory.addFromGrid({0}, seen(1.0), bench.poses());
-  bench.memory.addFromGrid({0}, seen(2.0), bench.poses());
+  bench.addFromGrid(0, seen(1.0));
+  bench.addFromGrid(0, seen(2.0));
   ASSERT_THAT(bench.entities(), SizeIs(1));
   EXPECT_FALSE(doorOf(bench.entities()[0]).hasLeaf);
   bench.change();
-  bench.memory.addFromGrid({0}, {}, bench.poses());
+  bench.addFromGrid(0, {});
   EXPECT_THAT(bench.entities(), IsEmpty());
   EXPECT_THAT(bench.change().removedEntities, SizeIs(1));
+}
+
+std::vector<DoorSighting> doorwayAtOrigin(SightingMaker& maker, double evidence, double time = 1.0) {
+  auto sighting = maker.see({.pose = {0.0, 0.0, 0.0}, .hasLeaf = false}, before(0.0), time);
+  sighting.evidence = evidence;
+  return {sighting};
+}
+
+TEST(DoorMemory, AGridThatNoLongerShowsADoorwayTakesBackWhatItSaidAndNoMore) {
+  MemoryBench bench;
+  bench.submaps[1] = bench.submaps[2] = geometry::Pose3::Identity();
+  SightingMaker maker(18);
+  for (const int submap : {0, 1}) bench.addFromGrid(submap, doorwayAtOrigin(maker, 3.5));
+  ASSERT_THAT(bench.entities(), SizeIs(1));
+  bench.addFromGrid(0, {});
+  ASSERT_THAT(bench.entities(), SizeIs(1)) << "the other one still shows it";
+  EXPECT_NEAR(bench.entities()[0].confidence, 1.0 / (1.0 + std::exp(1.0 - 3.5)), 1e-6);
+}
+
+TEST(DoorMemory, GridsThatShowThatThereIsNoDoorwayRefuteIt) {
+  MemoryBench bench;
+  SightingMaker maker(19);
+  for (int i = 1; i < 30; ++i) bench.submaps[i] = geometry::Pose3::Identity();
+  bench.addFromGrid(0, doorwayAtOrigin(maker, 3.5));
+  for (int i = 1; i < 30; ++i) {
+    bench.addFromGrid(i, {}, false);
+    ASSERT_THAT(bench.entities(), SizeIs(1)) << "those that show nothing say nothing";
+  }
+  for (int i = 1; i < 30; ++i) bench.addFromGrid(i, {}, true);
+  EXPECT_THAT(bench.entities(), IsEmpty());
+}
+
+TEST(DoorMemory, OneGridCountsOnceHoweverOftenItIsAsked) {
+  MemoryBench bench;
+  bench.submaps[1] = geometry::Pose3::Identity();
+  SightingMaker maker(20);
+  bench.addFromGrid(0, doorwayAtOrigin(maker, 3.5));
+  for (int i = 0; i < 50; ++i) bench.addFromGrid(1, {}, true);
+  EXPECT_THAT(bench.entities(), SizeIs(1));
+  for (int i = 0; i < 50; ++i) bench.addFromGrid(1, doorwayAtOrigin(maker, 0.1), true);
+  ASSERT_THAT(bench.entities(), SizeIs(1));
+  EXPECT_NEAR(bench.entities()[0].confidence, 1.0 / (1.0 + std::exp(1.0 - 3.6)), 1e-6) << "the last word of each";
+}
+
+TEST(DoorMemory, AGridWithoutAnOpeningDoesNotSpeakAgainstALeaf) {
+  MemoryBench bench;
+  SightingMaker maker(21);
+  driveBy(bench, maker, {}, 10);
+  ASSERT_THAT(bench.entities(), SizeIs(1));
+  const double before = bench.entities()[0].confidence;
+  for (int i = 1; i < 40; ++i) {
+    bench.submaps[i] = geometry::Pose3::Identity();
+    bench.addFromGrid(i, {}, true);
+  }
+  ASSERT_THAT(bench.entities(), SizeIs(1));
+  EXPECT_EQ(bench.entities()[0].confidence, before);
 }
 
 TEST(DoorMemory, OpeningsMayBeWiderThanLeaves) {
@@ -316,7 +372,7 @@ TEST(DoorMemory, OpeningsMayBeWiderThanLeaves) {
     MemoryBench bench;
     auto sighting = maker.see({.pose = {0.0, 0.0, 0.0}, .width = width, .hasLeaf = hasLeaf}, before(0.0), 1.0);
     sighting.evidence = 4.0;
-    bench.memory.addFromGrid({0}, std::vector{sighting}, bench.poses());
+    bench.addFromGrid(0, std::vector{sighting});
     return bench.entities();
   };
   EXPECT_THAT(entitiesOf(3.8, false), SizeIs(1));
@@ -335,9 +391,9 @@ TEST(DoorMemory, WhatOneGridShowsVaguelyAnotherMayConfirmMuchLater) {
     sighting.evidence = 2.0;
     return std::vector{sighting};
   };
-  bench.memory.addFromGrid({0}, seen(20.0), bench.poses());
+  bench.addFromGrid(0, seen(20.0));
   EXPECT_THAT(bench.entities(), IsEmpty());
-  bench.memory.addFromGrid({1}, seen(1000.0), bench.poses());
+  bench.addFromGrid(1, seen(1000.0));
   ASSERT_THAT(bench.entities(), SizeIs(1));
   EXPECT_EQ(bench.entities()[0].firstSeen, test::at(10.0)) << "when the grid was begun";
 }

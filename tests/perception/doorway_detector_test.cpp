@@ -231,6 +231,62 @@ TEST(DoorwayDetector, WhatNobodyLookedThroughIsNone) {
   EXPECT_TRUE(doorwaysIn(plan, {{-1.0, -2.0}, {0.0, -1.0}}).empty());
 }
 
+TEST(DoorwayDetector, FindsAGapBetweenWallsThatAreNearlyInOneLine) {
+  Plan plan;
+  plan.addBox({-3.2, -4.2}, {-3.0, 4.2});
+  plan.addBox({3.0, -4.2}, {3.2, 4.2});
+  plan.addBox({-3.2, 4.0}, {3.2, 4.2});
+  plan.addBox({-3.2, -4.2}, {3.2, -4.0});
+  plan.addBox({-3.0, -0.12}, {-0.7, 0.13});
+  plan.addBox({0.7, 0.02}, {3.0, 0.27});
+  const auto found = doorwaysIn(plan, kBothSides);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found.front().T_submap_door.translation().x(), 0.0, 0.08);
+  EXPECT_NEAR(found.front().door.width, 1.4, 0.1);
+}
+
+TEST(DoorwayDetector, AGapBehindWhichBeamsReturnFromNothingIsAWindow) {
+  Plan plan;  // a room of 5 m by 4 m, and outside nothing at all
+  plan.addBox({-2.7, -4.2}, {-2.5, 0.08});
+  plan.addBox({2.5, -4.2}, {2.7, 0.08});
+  plan.addBox({-2.5, -4.2}, {2.5, -4.0});
+  plan.addBox({-2.5, -0.08}, {-0.45, 0.08});
+  plan.addBox({0.45, -0.08}, {2.5, 0.08});
+  EXPECT_TRUE(doorwaysIn(plan, kBothSides).empty());
+  plan.addBox({-4.0, 5.0}, {4.0, 5.2});  // a house across the street
+  EXPECT_EQ(doorwaysIn(plan, kBothSides).size(), 1U);
+}
+
+const Pose2 kInTheMiddle{0.0, 0.0, 0.5 * std::numbers::pi};
+
+TEST(ShowsNoDoorway, AWallThatGoesOnBesideTheGapRefutesIt) {
+  Plan corridor;  // 2 m wide, and where its frame was taken for one there is none
+  corridor.addBox({-1.2, -6.0}, {-1.0, 6.0});
+  corridor.addBox({1.0, -6.0}, {1.2, 6.0});
+  EXPECT_TRUE(showsNoDoorway(gridOf(corridor, {{0.0, -2.0}, {0.0, 2.0}}), kInTheMiddle, 2.0));
+}
+
+TEST(ShowsNoDoorway, AJambThatIsNotThereRefutesIt) {
+  EXPECT_TRUE(showsNoDoorway(gridOf(twoRooms({}, -0.45, 1.45), kBothSides), kInTheMiddle, 0.9));
+  EXPECT_FALSE(showsNoDoorway(gridOf(twoRooms({}, 2.5, 2.5), kBothSides), kInTheMiddle, 0.9)) << "it may be closed now";
+}
+
+TEST(ShowsNoDoorway, WhatIsSeenFromOneSideAloneTellsNothing) {
+  const auto plan = twoRooms({}, -0.45, 0.45);
+  EXPECT_FALSE(showsNoDoorway(gridOf(plan, {{0.0, -2.0}}), kInTheMiddle, 0.9));
+}
+
+TEST(ShowsNoDoorway, WhatIsSeenOnAllSidesAndWasNotFoundIsNone) {
+  const Pose2 T_world_plan{3.0, -7.0, 0.5};
+  const auto grid = gridOf(twoRooms(T_world_plan, -0.45, 0.45), kBothSides);
+  EXPECT_TRUE(showsNoDoorway(grid, T_world_plan * kInTheMiddle, 0.9));
+}
+
+TEST(ShowsNoDoorway, WhereNothingIsKnownNothingIsTold) {
+  EXPECT_FALSE(showsNoDoorway(map::OccupancyGrid(), kInTheMiddle, 0.9));
+  EXPECT_FALSE(showsNoDoorway(gridOf(twoRooms({}, -0.45, 0.45), kBothSides), {50.0, 0.0, 0.0}, 0.9));
+}
+
 TEST(DoorwayDetector, TheConfigurationRules) {
   const auto plan = twoRooms({}, -0.45, 0.45);
   const auto grid = gridOf(plan, kBothSides);

@@ -131,7 +131,7 @@ TEST(EntityMemory, AGridDoesNotTellWhenADoorStoodOpen) {
   seeDoor(bench, maker, 10);
   WorldDoor doorway = kDoor;
   doorway.hasLeaf = false;
-  bench.memory.addFromGrid({0}, std::vector{maker.see(doorway, cameraAt(0.0), 60.0)}, bench.poses());
+  bench.addFromGrid(0, std::vector{maker.see(doorway, cameraAt(0.0), 60.0)});
   ASSERT_THAT(bench.entities(), SizeIs(1));
   EXPECT_EQ(doorOf(bench.entities()[0]).state, DoorState::kClosed);
   EXPECT_EQ(bench.entities()[0].lastSeen, test::at(1.8));

@@ -97,6 +97,11 @@ struct MemoryBench {
     for (auto& door : doors) door = inSubmap(door, T_world_submap);
     memory.add({submap}, sensorPose(submap, sensor), doors, poses());
   }
+  /// What a sub-map's grid shows; where it does not show a doorway, it tells nothing, or that there is none.
+  void addFromGrid(std::int64_t submap, const std::vector<perception::DoorSighting>& doorways, bool showsNone = false) {
+    const auto tell = [showsNone](const geometry::Pose3&, double) { return showsNone; };
+    memory.addFromGrid({submap}, doorways, tell, poses());
+  }
   geometry::Pose3 sensorPose(std::int64_t submap, const Eigen::Vector3d& sensor) const {
     return submaps.at(submap).inverse() * geometry::Pose3(Eigen::Translation3d(sensor));
   }

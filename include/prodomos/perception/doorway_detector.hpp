@@ -3,6 +3,7 @@
 #pragma once
 
 #include "prodomos/base/config.hpp"
+#include "prodomos/geometry/pose.hpp"
 #include "prodomos/map/occupancy_grid.hpp"
 #include "prodomos/perception/sightings.hpp"
 
@@ -27,5 +28,9 @@ void describe(base::ConfigVisitor& visitor, DoorwayDetectorConfig& config);
 /// those of the caller. Looks at the same grid are not independent of each other.
 std::vector<DoorSighting> findDoorways(const map::OccupancyGrid& grid, const Eigen::Vector2d& observer_in_submap,
                                        const DoorwayDetectorConfig& config);
+
+/// Whether a grid in which no doorway is found shows enough of the place of one to tell that there is none: the floor
+/// where it would be is free, and a jamb is missing, a wall goes on beyond two of its corners, or all corners are seen.
+bool showsNoDoorway(const map::OccupancyGrid& grid, const geometry::Pose2& T_submap_doorway, double width);
 
 }  // namespace prodomos::perception

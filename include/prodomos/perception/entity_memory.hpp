@@ -28,6 +28,7 @@ struct EntityMemoryConfig {
   double submapHeading = 0.02;      ///< radians, likewise
   double doorMiss = 0.7;            ///< log-odds lost where a door should be well seen and is not found
   double stairsMiss = 0.7;          ///< the same of stairs
+  double doorwayMiss = 0.15;        ///< the same of doorways, where a sub-map's grid shows that there is none
   double openingAgainstLeaf = 0.2;  ///< log-odds against a leaf, of an opening in which none is seen
   double stateTrust = 0.75;         ///< that one reading tells the state of a door rightly
   double stateMemory = 30.0;        ///< seconds in which the state of a door that nobody sees is forgotten
@@ -47,6 +48,9 @@ class EntityMemory {
   /// T_map_submap as refined now, to compare what was seen from different sub-maps.
   using SubMapPoses = std::function<geometry::Pose3(base::SubMapId)>;
 
+  /// Whether a grid shows that there is no doorway of that width: showsNoDoorway().
+  using ShowsNoDoorway = std::function<bool(const geometry::Pose3& T_submap_doorway, double width)>;
+
   /// An id that no entity has had yet; asked for when a thing has become sure enough for the map.
   using NewId = std::function<base::EntityId()>;
 
@@ -61,8 +65,10 @@ class EntityMemory {
            const SubMapPoses& poses);
   void add(base::SubMapId submap, const geometry::Pose3& T_submap_sensor, std::span<const StaircaseSighting> stairs,
            const SubMapPoses& poses);
-  /// All doorways that the grid of `submap` shows now. One that it showed before and no longer does counts against it.
-  void addFromGrid(base::SubMapId submap, std::span<const DoorSighting> doorways, const SubMapPoses& poses);
+  /// All doorways that the grid of `submap` shows now: its last word, whatever it showed before. Where one is not among
+  /// them and `showsNone`, that counts against it.
+  void addFromGrid(base::SubMapId submap, std::span<const DoorSighting> doorways, const ShowsNoDoorway& showsNone,
+                   const SubMapPoses& poses);
   /// A look at the places where doors and stairs are believed: where it shows something else, that speaks against them
   /// (no wall, free floor, nothing found from near by) or tells their state (one sees through).
   void look(base::SubMapId submap, const RgbdView& view, const Surfaces& surfaces, const SubMapPoses& poses);
