@@ -42,7 +42,7 @@ Json toJson(const evaluation::RoomRecall& recall) {
 
 Json toJson(const evaluation::HindsightLevel& level) {
   Json out = Json::object();
-  for (const auto mobility : {map::Mobility::kStatic, map::Mobility::kQuasiStatic}) {
+  for (const auto mobility : {map::Mobility::kStatic, map::Mobility::kQuasiStatic, map::Mobility::kDynamic}) {
     out[std::string(toString(mobility))] = measure(level.byMobility[static_cast<std::size_t>(mobility)].precision());
   }
   const auto overall = level.overall();
