@@ -3,12 +3,13 @@
 // What the detectors of doors and stairs find in simulated logs where the robot knows its way truly: for tuning them
 // apart from localization.
 //
-//     perceive_log LOG.rawlog ... [--frames N] [--set doors.enabled=false ...] [--claims] [--sightings] [--look ID]
+//     perceive_log LOG.rawlog ... [--frames N] [--level] [--set doors.enabled=false ...] [--claims] [--sightings]
+//     [--look ID]
 //
 // Prints, by log and pooled: recall, precision and medians as `evaluate prediction` has them; of each detector its
 // single sightings, those that lie at a true thing and those that do not, with their mean evidence and errors;
-// milliseconds a frame. --claims lists every thing of truth or map and what became of it; --sightings every false
-// sighting; --look every sighting of one true thing.
+// milliseconds a frame. --level: as of a robot that does not know that it climbs. --claims lists every thing of truth
+// or map and what became of it; --sightings every false sighting; --look every sighting of one true thing.
 #include "prodomos/base/config.hpp"
 #include "prodomos/base/stopwatch.hpp"
 #include "prodomos/evaluation/alignment.hpp"
@@ -38,6 +39,7 @@ struct Options {
   std::vector<std::string> logs;
   std::vector<std::string> assignments;
   int frames = 1'000'000;
+  bool level = false;
   bool claims = false;
   bool sightings = false;
   std::string look;
@@ -117,8 +119,11 @@ class Drive {
       const auto* reading = std::get_if<sensors::Reading>(&item);
       if (reading == nullptr) continue;
       if (score_.frames >= options_.frames) break;
-      const auto T_world_body = evaluation::poseAt(truth_.trajectory, reading->time);
-      if (T_world_body) take(*reading, *T_world_body);
+      auto T_world_body = evaluation::poseAt(truth_.trajectory, reading->time);
+      if (!T_world_body) continue;
+      if (!firstHeight_) firstHeight_ = T_world_body->translation().z();
+      if (options_.level) T_world_body->translation().z() = *firstHeight_;
+      take(*reading, *T_world_body);
     }
     endSubmap();
     judge();
@@ -194,7 +199,7 @@ class Drive {
     for (auto& doorway : doorways) doorway.time = now_;
     count("doorways", doorways);
     const auto showsNone = [this](const geometry::Pose3& T_submap_doorway, double width) {
-      return showsNoDoorway(grid_, geometry::toPose2(T_submap_doorway), width);
+      return perception::showsNoDoorway(grid_, geometry::toPose2(T_submap_doorway), width);
     };
     memory_.addFromGrid(submap(), doorways, showsNone, poses());
   }
@@ -382,6 +387,7 @@ class Drive {
   perception::EntityMemory memory_;
   map::MapChange change_;
   std::vector<geometry::Pose3> T_map_submap_;
+  std::optional<double> firstHeight_;
   Eigen::Vector3d last_ = Eigen::Vector3d::Zero();
   double way_ = 0.0;
   map::OccupancyGrid grid_;
@@ -442,6 +448,7 @@ int main(int argc, char** argv) {
   app.add_option("LOG", options.logs, "simulated logs, their truth beside them")->required()->check(CLI::ExistingFile);
   app.add_option("--frames", options.frames, "of each log, at most");
   app.add_option("--set", options.assignments, "section.key=value");
+  app.add_flag("--level", options.level, "as if nobody measured heights: all poses are as high as the first");
   app.add_flag("--claims", options.claims, "list what was found, missed and false");
   app.add_flag("--sightings", options.sightings, "list false sightings");
   app.add_option("--look", options.look, "list the sightings of this true door or staircase");
