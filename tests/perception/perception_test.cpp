@@ -238,6 +238,82 @@ TEST(Perception, LooksAtImagesNoMoreOftenThanItIsTold) {
   EXPECT_EQ(session.doors().at(0).observations, half.doors().at(0).observations);
 }
 
+/// Two rooms of 6 m by 4 m, one above the other along y, as a grid shows them; the wall between them, at y = 0, has a
+/// gap of 0.9 m in its middle, or none.
+map::OccupancyGrid twoRooms(bool haveDoorway) {
+  const auto isWall = [haveDoorway](double x, double y) {
+    const bool isOutside = std::abs(x) > 3.0 || std::abs(y) > 4.0;
+    const bool isBetween = std::abs(y) < 0.08 && !(haveDoorway && std::abs(x) < 0.45);
+    return isOutside || isBetween;
+  };
+  map::OccupancyGrid grid;
+  for (const double side : {-2.0, 2.0}) {
+    const Eigen::Vector2d origin(0.3, side);
+    std::vector<map::OccupancyGrid::Beam> beams;
+    for (int i = 0; i < 1440; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / 1440;
+      Eigen::Vector2d end = origin;
+      while (!isWall(end.x(), end.y())) end += 0.01 * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      beams.push_back({end, true});
+    }
+    for (int scan = 0; scan < 4; ++scan) grid.insert(origin, beams);
+  }
+  return grid;
+}
+
+TEST(Perception, FindsDoorwaysInWhatIsKnownAroundASubMap) {
+  Session session;
+  session.perception.lookAround({kSubMap, twoRooms(true), at(10.0), at(30.0)}, kOneSubMap);
+  ASSERT_THAT(session.doors(), SizeIs(1));
+  const auto doorway = session.doors().at(0);
+  EXPECT_EQ(doorway.submap, kSubMap);
+  EXPECT_LT(doorway.T_submap_entity.translation().head<2>().norm(), 0.1);
+  EXPECT_NEAR(std::get<map::Door>(doorway.attributes).width, 0.9, 0.1);
+  EXPECT_FALSE(std::get<map::Door>(doorway.attributes).hasLeaf);
+  EXPECT_EQ(doorway.firstSeen, at(10.0)) << "when the oldest of the grids was begun";
+  EXPECT_EQ(doorway.lastSeen, at(30.0));
+}
+
+TEST(Perception, TheLastLookAroundASubMapCounts) {
+  Session session;
+  session.perception.lookAround({kSubMap, twoRooms(true), at(10.0), at(30.0)}, kOneSubMap);
+  session.perception.lookAround({kSubMap, twoRooms(false), at(10.0), at(50.0)}, kOneSubMap);
+  EXPECT_THAT(session.doors(), IsEmpty());
+  session.perception.lookAround({kSubMap, twoRooms(true), at(10.0), at(70.0)}, kOneSubMap);
+  EXPECT_THAT(session.doors(), SizeIs(1));
+}
+
+TEST(Perception, ADoorwayIsInTheMapOnceHoweverManySubMapsKnowIt) {
+  Session session;
+  const auto poses = [](base::SubMapId submap) { return geometry::toPose3({0.0, submap == kSubMap ? 0.0 : 1.0, 0.0}); };
+  session.perception.lookAround({kSubMap, twoRooms(true), at(10.0), at(30.0)}, poses);
+  map::OccupancyGrid moved;  // the same rooms in the other one's frame
+  const auto rooms = twoRooms(true);
+  moved.merge(rooms, geometry::toPose3({0.0, -1.0, 0.0}));
+  session.perception.lookAround({{2}, moved, at(30.0), at(50.0)}, poses);
+  ASSERT_THAT(session.doors(), SizeIs(1));
+  EXPECT_EQ(session.doors().at(0).observations, 2);
+}
+
+TEST(Perception, LooksAroundForNothingWhereItIsSwitchedOff) {
+  PerceptionConfig config;
+  config.doorways.enabled = false;
+  Session without(config);
+  config.doorways.enabled = true;
+  config.enabled = false;
+  Session off(config);
+  for (auto* session : {&without, &off}) {
+    session->perception.lookAround({kSubMap, twoRooms(true), at(10.0), at(30.0)}, kOneSubMap);
+    EXPECT_THAT(session->perception.entities(), IsEmpty());
+  }
+}
+
+TEST(Perception, AGridThatKnowsNothingHasNoDoorways) {
+  Session session;
+  session.perception.lookAround({kSubMap, map::OccupancyGrid(), at(10.0), at(30.0)}, kOneSubMap);
+  EXPECT_THAT(session.perception.entities(), IsEmpty());
+}
+
 TEST(Perception, SwitchedOffFindsNothing) {
   PerceptionConfig config;
   config.enabled = false;
