@@ -69,6 +69,33 @@ TEST(Plan, SaysThatAMapIsEmpty) {
   EXPECT_GT(picture.height, 50.0);
 }
 
+TEST(Plan, DrawsFloorThatIsFreeIfSomebodyLeavesInTheColourOfPeople) {
+  auto store = map::MapStore::inMemory();
+  map::MapChange change;
+  change.sessions.emplace_back().id = {1};
+  change.nodes.emplace_back().id = {1};
+  change.nodes[0].session = {1};
+  change.entities.emplace_back().id = {1};
+  change.entities[0].submap = {1};
+  change.entities[0].attributes = map::Human{};
+  for (const auto state : {map::PredictionState::kOpen, map::PredictionState::kConfirmed}) {
+    auto& strip = change.predictions.emplace_back();
+    strip.id = {static_cast<std::int64_t>(change.predictions.size())};
+    strip.cause = {1};
+    strip.submap = strip.node = {1};
+    strip.state = state;
+    strip.areas = {{.threshold = 0.5, .outline_in_node = {{0, 0}, {2, 0}, {2, 1}}}};
+  }
+  store.commit(change);
+  const auto picture = planOf(store.view());
+  const auto& areas = group(picture, "predicted-areas").shapes;
+  ASSERT_EQ(areas.size(), 1U) << "of the other one, somebody has seen what is there";
+  EXPECT_EQ(std::get<Line>(areas[0]).style.stroke, kHumanColor);
+  EXPECT_THAT(std::get<Line>(areas[0]).tip, HasSubstr("free if the person leaves"));
+  const auto& nodes = group(picture, "nodes").shapes;
+  EXPECT_NE(std::get<Circle>(nodes.at(0)).style.stroke, kPredictedColor) << "somebody was there";
+}
+
 TEST(Plan, LeavesOutLabelsForWhichThereIsNoRoom) {
   auto store = map::MapStore::inMemory();
   map::MapChange change;

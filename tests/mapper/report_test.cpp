@@ -21,6 +21,8 @@ TEST(Report, ComesBackAsItWasSaved) {
   report.used = 7;
   report.usedByKind = {{"laser_scan", 4}, {"odometry", 3}};
   report.skippedByReason = {{"unsupported CObservationGPS", 5}};
+  report.notLookedAt = {{"an image without depth", 3}};
+  report.refused = {{"a door without width", 1}};
   report.submaps = 2;
   report.distance = 12.5;
   report.addFault("a.rawlog: cut");
@@ -37,6 +39,8 @@ TEST(Report, ComesBackAsItWasSaved) {
   EXPECT_EQ(again.used, report.used);
   EXPECT_EQ(again.usedByKind, report.usedByKind);
   EXPECT_EQ(again.skippedByReason, report.skippedByReason);
+  EXPECT_EQ(again.notLookedAt, report.notLookedAt);
+  EXPECT_EQ(again.refused, report.refused);
   EXPECT_EQ(again.faults, report.faults);
   EXPECT_EQ(again.faultCount, report.faultCount);
   EXPECT_EQ(again.submaps, report.submaps);
