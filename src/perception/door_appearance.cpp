@@ -96,4 +96,37 @@ DoorAppearance appearanceOf(const geometry::Pose3& T_submap_door, double width, 
   return appearance;
 }
 
+DoorAppearance appearanceOf(const geometry::Pose3& T_sensor_door, double width, const std::vector<ScanBeam>& beams) {
+  constexpr int kLeastBeams = 8;
+  Eigen::Vector2d normal = T_sensor_door.linear().col(0).head<2>();
+  const Eigen::Vector2d middle = T_sensor_door.translation().head<2>();
+  if (normal.dot(middle) < 0.0) normal = -normal;
+  const double distance = normal.dot(middle);
+  DoorAppearance appearance;
+  appearance.range = middle.norm();
+  appearance.obliquity = std::acos(std::min(1.0, distance / std::max(1e-9, middle.norm())));
+
+  int count = 0;
+  int hidden = 0;
+  int filled = 0;
+  int through = 0;
+  for (const auto& beam : beams) {
+    const double towards = normal.dot(beam.direction);
+    if (!(towards > 0.05)) continue;
+    const Eigen::Vector2d onDoor = distance / towards * beam.direction - middle;
+    if (std::abs(normal.x() * onDoor.y() - normal.y() * onDoor.x()) > kAcross.back() * width) continue;
+    const double behind = beam.range * towards - distance;
+    ++count;
+    hidden += behind < -kInPlane ? 1 : 0;
+    filled += std::abs(behind) <= kInPlane ? 1 : 0;
+    through += behind > kBehind ? 1 : 0;
+  }
+  if (count < kLeastBeams) return appearance;
+  appearance.unknown = 0.0;
+  appearance.hidden = static_cast<double>(hidden) / count;
+  appearance.filled = static_cast<double>(filled) / count;
+  appearance.through = static_cast<double>(through) / count;
+  return appearance;
+}
+
 }  // namespace prodomos::perception

@@ -6,9 +6,13 @@
 #include "prodomos/perception/rgbd_view.hpp"
 #include "prodomos/perception/surfaces.hpp"
 
+#include "perception/scan_segments.hpp"
+
+#include <vector>
+
 namespace prodomos::perception {
 
-/// What a depth image shows where a door is believed: shares of spots on its leaf.
+/// What a depth image or a scan shows where a door is believed: shares of spots on its leaf.
 struct DoorAppearance {
   double range = 0.0;      ///< metres, from the camera to the door's middle
   double obliquity = 0.0;  ///< radians between the line of sight and the normal
@@ -24,5 +28,7 @@ struct DoorAppearance {
 
 DoorAppearance appearanceOf(const geometry::Pose3& T_submap_door, double width, double height, const RgbdView& view,
                             const Surfaces& surfaces);
+/// By the beams of a level scan that lead to the leaf's place; `isWhole` and `hasNoWall` are not told.
+DoorAppearance appearanceOf(const geometry::Pose3& T_sensor_door, double width, const std::vector<ScanBeam>& beams);
 
 }  // namespace prodomos::perception

@@ -16,6 +16,7 @@ constexpr double kWellSeenRange = 4.0;      // metres
 constexpr double kWellSeenObliquity = 1.0;  // radians
 constexpr double kWellSeenShare = 0.9;      // of its spots
 constexpr double kFarthestLook = 6.0;       // metres
+constexpr double kGreatestRise = 2.0;       // metres between a door's foot and a scan of its storey
 /// Shares of the spots that tell the state.
 constexpr double kLeastKnown = 0.3;
 constexpr double kMostlyKnown = 0.75;
@@ -38,6 +39,8 @@ constexpr Likelihoods kSeenThrough = {0.02, 0.18, 0.8};
 constexpr Likelihoods kNotClosed = {0.02, 0.46, 0.52};
 constexpr Likelihoods kFilledFromBefore = {0.8, 0.12, 0.08};
 constexpr Likelihoods kFilledFromAside = {0.48, 0.24, 0.28};
+// Where the leaf is, its sightings tell.
+constexpr Likelihoods kNotClosedInScan = {0.02, 0.49, 0.49};
 
 void tellState(DoorLandmark& door, base::Time time, const Likelihoods& likelihoods, const EntityMemoryConfig& config) {
   const auto before = door.state.state();
@@ -79,6 +82,22 @@ DoorLook& newLookOfGrid(std::vector<DoorLook>& looks, base::SubMapId submap) {
   look.submap = submap;
   look.ofGrid = true;
   return look;
+}
+
+/// Of a scan: people, and who looks along the wall, tell nothing; nor does an opening where the door is not closed, for
+/// how far it is open is not seen.
+std::optional<Likelihoods> toldByScan(const DoorAppearance& appearance, map::DoorState state) {
+  constexpr double kClearlyNotFilled = 0.7;
+  const double known = appearance.known();
+  if (known < kMostlyKnown || appearance.obliquity > kFrontal) return std::nullopt;
+  if (appearance.filled >= kWhollyFilled * known) return kFilledFromBefore;
+  const bool isNews = state == map::DoorState::kClosed;
+  if (isNews && appearance.filled < kClearlyNotFilled * known) return kNotClosedInScan;
+  return std::nullopt;
+}
+
+bool isPlaced(const DoorPlace& place) {
+  return place.covariance.topLeftCorner<2, 2>().trace() <= kGreatestSigma * kGreatestSigma;
 }
 
 double likelihoodToStay(const DoorLandmark& door) {
@@ -260,6 +279,21 @@ void DoorMemory::look(const Frames& frames, const RgbdView& view, const Surfaces
   }
 }
 
+void DoorMemory::look(const Frames& frames, const geometry::Pose3& T_submap_sensor, const std::vector<ScanBeam>& beams,
+                      base::Time time) {
+  const geometry::Pose3 T_sensor_submap = T_submap_sensor.inverse();
+  for (auto& door : landmarks_) {
+    const auto place = placeOf(door, frames, config_);
+    const geometry::Pose3 T_sensor_door = T_sensor_submap * poseOf(place.pose);
+    const bool isInReach = T_sensor_door.translation().head<2>().norm() < kWellSeenRange &&
+                           std::abs(T_sensor_door.translation().z()) < kGreatestRise;
+    if (!isInReach || !isPlaced(place)) continue;
+    if (const auto told = toldByScan(appearanceOf(T_sensor_door, door.width, beams), door.state.state())) {
+      tellState(door, time, *told, config_);
+    }
+  }
+}
+
 /// What was taken for a closed leaf in this view is none: there is no surface.
 void DoorMemory::takeBackLeaf(DoorLandmark& door, const Frames& frames, const RgbdView& view) const {
   if (!(door.closedLeafNow > 0.0)) return;
@@ -272,7 +306,7 @@ void DoorMemory::takeBackLeaf(DoorLandmark& door, const Frames& frames, const Rg
 
 void DoorMemory::see(DoorLandmark& door, const Frames& frames, const RgbdView& view, const Surfaces& surfaces) const {
   const auto place = placeOf(door, frames, config_);
-  if (place.covariance.topLeftCorner<2, 2>().trace() > kGreatestSigma * kGreatestSigma) return;
+  if (!isPlaced(place)) return;
   const auto appearance = appearanceOf(poseOf(place.pose), door.width, door.height, view, surfaces);
   const bool isDetected = door.lastDetected == view.time;
   const auto told = appearance.hasNoWall ? std::nullopt : toldByDepth(appearance);

@@ -23,6 +23,8 @@ class DoorMemory {
   void addFromGrid(const Frames& frames, std::span<const DoorSighting> doorways,
                    const EntityMemory::ShowsNoDoorway& showsNone);
   void look(const Frames& frames, const RgbdView& view, const Surfaces& surfaces);
+  void look(const Frames& frames, const geometry::Pose3& T_submap_sensor, const std::vector<ScanBeam>& beams,
+            base::Time time);
 
   std::vector<DoorLandmark>& landmarks() { return landmarks_; }
   const std::vector<DoorLandmark>& landmarks() const { return landmarks_; }

@@ -220,6 +220,13 @@ void EntityMemory::look(base::SubMapId submap, const RgbdView& view, const Surfa
   implementation_->settle(view.time);
 }
 
+void EntityMemory::look(base::SubMapId submap, const geometry::Pose3& T_submap_sensor, const sensors::LaserScan& scan,
+                        base::Time time, const SubMapPoses& poses) {
+  if (!geometry::isFinite(T_submap_sensor)) return;
+  implementation_->doors.look({submap, poses}, T_submap_sensor, beamsOf(scan), time);
+  implementation_->settle(time);
+}
+
 std::vector<map::Entity> EntityMemory::entities() const {
   return implementation_->entities();
 }

@@ -4,10 +4,14 @@
 
 #include "prodomos/perception/open_door_detector.hpp"
 
+#include "perception/numeric.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <span>
 
 namespace prodomos::perception::open_doors {
 
@@ -24,6 +28,7 @@ constexpr double kInWall = 0.06;      // metres that a wall's surface deviates f
 // Where a leaf's axis may lie, metres behind the face of the wall.
 constexpr double kLeastAxis = -0.08;
 constexpr double kMostAxis = 0.35;
+constexpr double kDeeper = 0.2;   // and of what is seen of the leaf
 constexpr double kHidden = 0.35;  // of a leaf's length, by its jamb
 // Log-odds, as counted in simulated buildings.
 constexpr double kBothJambs = 2.0;
@@ -135,118 +140,139 @@ bool endsFreely(const std::vector<ScanBeam>& beams, const ScanSegment& segment, 
   return true;
 }
 
-class DoorSearch {
- public:
-  DoorSearch(const std::vector<ScanBeam>& beams, double leastWidth)
-      : beams_(beams), segments_(segmentsOf(beams)), leastWidth_(leastWidth) {}
-
-  std::vector<ScannedDoor> doors() const;
-
- private:
-  std::vector<LeafLine> leaves() const;
-  std::optional<ScannedDoor> closedInto(const WallLine& wall, const LeafLine& leaf) const;
-  std::optional<ScannedDoor> closedTo(const WallLine& wall, const LeafLine& leaf, double closing) const;
-
-  const std::vector<ScanBeam>& beams_;
-  std::vector<ScanSegment> segments_;
-  double leastWidth_;
-};
-
-std::vector<LeafLine> DoorSearch::leaves() const {
+std::vector<LeafLine> leavesOf(const std::vector<ScanBeam>& beams, const std::vector<ScanSegment>& segments,
+                               double leastWidth) {
   std::vector<LeafLine> leaves;
-  for (std::size_t i = 0; i < segments_.size(); ++i) {
-    const auto& segment = segments_[i];
-    const double length = segment.length();
-    if (length < (1.0 - kHidden) * leastWidth_ || length > kWidestLeaf + kMostAxis) continue;
-    if (endsFreely(beams_, segment, true)) leaves.push_back({segment.last, segment.first, i});
-    if (endsFreely(beams_, segment, false)) leaves.push_back({segment.first, segment.last, i});
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const auto& segment = segments[i];
+    if (segment.length() < (1.0 - kHidden) * leastWidth || segment.length() > kWidestLeaf + kMostAxis) continue;
+    if (endsFreely(beams, segment, true)) leaves.push_back({segment.last, segment.first, i});
+    if (endsFreely(beams, segment, false)) leaves.push_back({segment.first, segment.last, i});
   }
   return leaves;
 }
 
-std::optional<ScannedDoor> DoorSearch::closedTo(const WallLine& wall, const LeafLine& leaf, double closing) const {
-  constexpr double kOffJamb = 0.15;    // metres between what begins at a jamb and that jamb
-  constexpr double kOffAxis = 0.05;    // metres between the leaf's line and its axis
-  constexpr double kMostFilled = 0.1;  // of the gap
-  constexpr double kLeastThrough = 0.2;
-  constexpr double kMargin = 0.1;  // metres beside jambs
-  const Vector2d root = wall.inWall(leaf.root);
-  const Vector2d tip = wall.inWall(leaf.tip);
-  const Vector2d along = (tip - root).normalized();
-  const double angle = std::acos(std::clamp(closing * along.x(), -1.0, 1.0));
-  if (angle < kLeastAngle || angle > kMostAngle) return std::nullopt;
-  const double swing = tip.y() > root.y() ? 1.0 : -1.0;
+/// A leaf in a wall's frame, to be closed along the wall's line: onward or back (1, -1).
+struct LeafInWall {
+  Vector2d root;
+  Vector2d tip;
+  Vector2d along;
+  double closing = 1.0;
 
+  /// From closed, radians.
+  double angle() const { return std::acos(std::clamp(closing * along.x(), -1.0, 1.0)); }
+  /// Of its line, metres.
+  double distanceTo(const Vector2d& point) const {
+    const Vector2d offset = point - root;
+    return std::abs(along.x() * offset.y() - along.y() * offset.x());
+  }
+};
+
+/// Between the jamb that the leaf hangs at and the other one, along the wall's line.
+struct Gap {
+  double hinge = 0.0;
+  double jamb = 0.0;
+  double closing = 1.0;
+  bool hingeIsSeen = false;
+
+  double width() const { return closing * (jamb - hinge); }
+};
+
+/// Where the leaf would close to, if it turned about its root along the wall.
+std::optional<Gap> gapBeside(const WallLine& wall, const LeafInWall& leaf, double leastWidth) {
+  constexpr double kOffJamb = 0.15;  // metres between what begins at a jamb and that jamb
+  constexpr double kOffFace = 0.1;   // metres along the wall between a leaf's root and where it meets the wall's face
+  Gap gap{.closing = leaf.closing};
+  const auto seen = wall.edgeBetween(leaf.root.x() + leaf.closing * kOffJamb, leaf.root.x() - leaf.closing * kOffJamb);
+  gap.hingeIsSeen = seen.has_value();
   // Where its jamb is hidden, the leaf begins where its line meets the face of the wall.
-  const double meeting = std::abs(along.y()) > 0.3 ? root.x() - along.x() * root.y() / along.y() : root.x();
-  const auto seen = wall.edgeBetween(root.x() + closing * kOffJamb, root.x() - closing * kOffJamb);
-  const double hinge = seen.value_or(std::clamp(meeting, root.x() - 0.1, root.x() + 0.1));
-  const double length = closing * (tip.x() - hinge);  // of the leaf, along the wall
-  const double reach = std::hypot(length, tip.y());
-  const double least = std::max(leastWidth_, reach - kMostAxis) - kOffJamb;
-  const auto jamb = wall.edgeBetween(hinge + closing * least, hinge + closing * (reach + kOffJamb));
+  const bool isSteep = std::abs(leaf.along.y()) > 0.3;
+  const double meeting = isSteep ? leaf.root.x() - leaf.along.x() * leaf.root.y() / leaf.along.y() : leaf.root.x();
+  gap.hinge = seen.value_or(std::clamp(meeting, leaf.root.x() - kOffFace, leaf.root.x() + kOffFace));
+  const double reach = std::hypot(leaf.tip.x() - gap.hinge, leaf.tip.y());  // more than the leaf, if it hangs deep
+  const double least = std::max(leastWidth, reach - kMostAxis) - kOffJamb;
+  const auto jamb = wall.edgeBetween(gap.hinge + gap.closing * least, gap.hinge + gap.closing * (reach + kOffJamb));
   if (!jamb) return std::nullopt;
-  const double width = closing * (*jamb - hinge);
-  if (width < leastWidth_ || width > kWidestLeaf || length > width + 0.03) return std::nullopt;
+  gap.jamb = *jamb;
+  if (gap.width() < leastWidth || gap.width() > kWidestLeaf) return std::nullopt;
+  return gap;
+}
 
-  // The leaf's axis, from its length or, where that hardly tells, from its line.
-  const double byLength = tip.y() - swing * std::sqrt(std::max(0.0, width * width - length * length));
-  const double offLine = std::abs(along.x() * (byLength - root.y()) - along.y() * (hinge - root.x()));
-  const double byLine = tip.y() - (tip.x() - hinge) * along.y() / along.x();
-  const double offLength = std::abs(std::hypot(length, tip.y() - byLine) - width);
+/// Behind the wall's face, of a leaf that is as long as the gap is wide and begins at its jamb.
+std::optional<double> axisOf(const LeafInWall& leaf, const Gap& gap) {
+  constexpr double kLonger = 0.03;  // metres that a leaf may be longer
+  constexpr double kOff = 0.05;     // metres between the leaf's line and its axis, or between length and width
+  const double length = gap.closing * (leaf.tip.x() - gap.hinge);  // along the wall
+  if (length > gap.width() + kLonger) return std::nullopt;
+  const double swing = leaf.tip.y() > leaf.root.y() ? 1.0 : -1.0;
+  const double byLength = leaf.tip.y() - swing * std::sqrt(std::max(0.0, square(gap.width()) - square(length)));
+  const double offLine = leaf.distanceTo({gap.hinge, byLength});
+  const double byLine = leaf.tip.y() - (leaf.tip.x() - gap.hinge) * leaf.along.y() / leaf.along.x();
+  const double offLength = std::abs(std::hypot(length, leaf.tip.y() - byLine) - gap.width());
   const double axis = offLength < offLine ? byLine : byLength;
-  if (std::min(offLine, offLength) > kOffAxis || axis < kLeastAxis || axis > kMostAxis) return std::nullopt;
-  if ((root - Vector2d(hinge, axis)).norm() > kHidden * width) return std::nullopt;
+  if (std::min(offLine, offLength) > kOff || axis < kLeastAxis || axis > kMostAxis) return std::nullopt;
+  if ((leaf.root - Vector2d(gap.hinge, axis)).norm() > kHidden * gap.width()) return std::nullopt;
+  return axis;
+}
 
-  const double from = hinge + closing * kMargin;
-  const double to = *jamb - closing * kMargin;
-  const double through = wall.share(Meets::kThrough, from, to);
-  if (wall.share(Meets::kWall, from, to) > kMostFilled || through < kLeastThrough) return std::nullopt;
+bool isOpen(const WallLine& wall, const Gap& gap) {
+  constexpr double kMargin = 0.1;  // metres beside jambs
+  constexpr double kMostFilled = 0.1;
+  constexpr double kLeastThrough = 0.2;
+  const double from = gap.hinge + gap.closing * kMargin;
+  const double to = gap.jamb - gap.closing * kMargin;
+  return wall.share(Meets::kWall, from, to) <= kMostFilled && wall.share(Meets::kThrough, from, to) >= kLeastThrough;
+}
 
+std::optional<ScannedDoor> doorOf(const WallLine& wall, const LeafInWall& leaf, double leastWidth) {
+  if (leaf.angle() < kLeastAngle || leaf.angle() > kMostAngle) return std::nullopt;
+  const auto gap = gapBeside(wall, leaf, leastWidth);
+  if (!gap) return std::nullopt;
+  const auto axis = axisOf(leaf, *gap);
+  if (!axis || !isOpen(wall, *gap)) return std::nullopt;
+  constexpr double kJambSigma = 0.02;  // metres
   ScannedDoor door;
-  door.hinge = wall.inSensor({hinge, 0.0});
-  door.jamb = wall.inSensor({*jamb, 0.0});
-  door.hingeJambIsSeen = seen.has_value();
-  door.axisBehind = axis;
-  door.angle = angle;
-  door.sigma = 0.02 + 0.5 * std::max(wall.spacingAt(hinge), wall.spacingAt(*jamb));
-  door.evidence = seen ? kBothJambs : kOneJamb;
+  door.hinge = wall.inSensor({gap->hinge, 0.0});
+  door.jamb = wall.inSensor({gap->jamb, 0.0});
+  door.axisBehind = *axis;
+  door.angle = leaf.angle();
+  door.sigma = kJambSigma + 0.5 * std::max(wall.spacingAt(gap->hinge), wall.spacingAt(gap->jamb));
+  door.evidence = gap->hingeIsSeen ? kBothJambs : kOneJamb;
   return door;
 }
 
-std::optional<ScannedDoor> DoorSearch::closedInto(const WallLine& wall, const LeafLine& leaf) const {
+/// With whichever side of the leaf the gap lies on.
+std::optional<ScannedDoor> doorOf(const WallLine& wall, const LeafLine& leaf, double leastWidth) {
   const Vector2d root = wall.inWall(leaf.root);
-  if (root.y() < kLeastAxis || root.y() > kMostAxis + 0.2) return std::nullopt;
+  const Vector2d tip = wall.inWall(leaf.tip);
+  if (root.y() < kLeastAxis) return std::nullopt;
   for (const double closing : {1.0, -1.0}) {
-    if (const auto door = closedTo(wall, leaf, closing)) return door;
+    const auto door = doorOf(wall, LeafInWall{root, tip, (tip - root).normalized(), closing}, leastWidth);
+    if (door) return door;
   }
   return std::nullopt;
-}
-
-std::vector<ScannedDoor> DoorSearch::doors() const {
-  std::vector<ScannedDoor> found;
-  const auto leaves = this->leaves();
-  if (leaves.empty()) return found;
-  constexpr double kNear = 1.5;  // metres from a leaf's root to its wall
-  for (const auto& leaf : leaves) {
-    std::optional<ScannedDoor> best;
-    for (std::size_t i = 0; i < segments_.size(); ++i) {
-      const auto& segment = segments_[i];
-      if (i == leaf.segment || segment.length() < kLeastWall) continue;
-      if (std::min((segment.first - leaf.root).norm(), (segment.last - leaf.root).norm()) > kNear) continue;
-      if (std::abs(segment.offset(leaf.root)) > kMostAxis + 0.2) continue;
-      const auto door = closedInto(WallLine(beams_, segment), leaf);
-      if (door && (!best || door->evidence > best->evidence)) best = door;
-    }
-    if (best) found.push_back(*best);
-  }
-  return found;
 }
 
 }  // namespace
 
 std::vector<ScannedDoor> doorsIn(const std::vector<ScanBeam>& beams, double leastWidth) {
-  return DoorSearch(beams, leastWidth).doors();
+  constexpr double kNear = 1.5;  // metres from a leaf's root to its wall
+  const auto segments = segmentsOf(beams);
+  const auto isWallOf = [](const ScanSegment& wall, const LeafLine& leaf) {
+    const double apart = std::min((wall.first - leaf.root).norm(), (wall.last - leaf.root).norm());
+    return wall.length() >= kLeastWall && apart <= kNear && std::abs(wall.offset(leaf.root)) <= kMostAxis + kDeeper;
+  };
+  std::vector<ScannedDoor> found;
+  for (const auto& leaf : leavesOf(beams, segments, leastWidth)) {
+    std::optional<ScannedDoor> best;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      if (i == leaf.segment || !isWallOf(segments[i], leaf)) continue;
+      const auto door = doorOf(WallLine(beams, segments[i]), leaf, leastWidth);
+      if (door && (!best || door->evidence > best->evidence)) best = door;
+    }
+    if (best) found.push_back(*best);
+  }
+  return found;
 }
 
 }  // namespace prodomos::perception::open_doors

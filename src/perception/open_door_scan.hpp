@@ -4,16 +4,15 @@
 
 #include "perception/scan_segments.hpp"
 
-#include <optional>
 #include <vector>
 
 namespace prodomos::perception::open_doors {
 
 /// A door that stands open, as a level scan shows it, in the sensor's plane.
 struct ScannedDoor {
-  Eigen::Vector2d hinge = Eigen::Vector2d::Zero();  ///< the jamb that the leaf hangs at, at the wall's face
+  Eigen::Vector2d hinge = Eigen::Vector2d::Zero();  ///< the jamb that the leaf hangs at, at the wall's face; where that
+                                                    ///< is hidden, the leaf's root
   Eigen::Vector2d jamb = Eigen::Vector2d::Zero();   ///< the other one
-  bool hingeJambIsSeen = false;                     ///< else it is where the leaf begins
   double axisBehind = 0.0;                          ///< metres from the wall's face to the leaf's axis
   double angle = 0.0;                               ///< radians from closed
   double sigma = 0.0;                               ///< metres, of a jamb along the wall

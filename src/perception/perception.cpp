@@ -109,6 +109,9 @@ void Perception::Implementation::perceiveScan(const Place& place, const sensors:
     const auto timing = times.measure("open_doors");
     const auto doors = findOpenDoors(scan, T_submap_body, place.floor_z, time, config_.openDoors);
     memory_.add(place.submap.node.id, T_submap_body * scan.T_body_sensor, doors, poses);
+    if (config_.openDoors.fromLaser) {
+      memory_.look(place.submap.node.id, T_submap_body * scan.T_body_sensor, scan, time, poses);
+    }
   }
   if (config_.people.enabled && config_.people.fromLaser && !seesPeople() && tracker_.wants(time)) {
     const auto timing = times.measure("people");

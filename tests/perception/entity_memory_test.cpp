@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prodomos/perception/entity_memory.hpp"
 
+#include "perception/flat_world.hpp"
 #include "perception/memory_world.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <optional>
 
 namespace prodomos::perception {
@@ -87,6 +89,49 @@ TEST(EntityMemory, OneSeesThroughADoorThatWasClosed) {
   ASSERT_THAT(bench.entities(), SizeIs(1));
   EXPECT_EQ(doorOf(bench.entities()[0]).state, DoorState::kOpen);
   EXPECT_EQ(bench.entities()[0].lastSeen, test::at(10.8));
+}
+
+/// A level scan from there: the wall with what lies in its door, and 3 m behind it another one.
+void scan(MemoryBench& bench, Scene scene, double y, double time) {
+  test::FlatWorld world;
+  for (const double side : {-1.0, 1.0}) world.addWall({2.0, side * 6.0}, {2.0, side * 0.45});
+  world.addWall({5.0, -6.0}, {5.0, 6.0});
+  if (scene == Scene::kWall) world.addWall({2.0, -0.45}, {2.0, 0.45});
+  if (scene == Scene::kAjarLeaf) world.addWall({2.0, -0.45}, {2.6, 0.2});
+  if (scene == Scene::kSomebodyBefore) world.addWall({1.0, -0.4}, {1.0, 0.4});
+  const auto T_submap_sensor = geometry::toPose3({0.0, y, 0.0});
+  bench.memory.look({0}, T_submap_sensor, world.scan({0.0, y, 0.0}), test::at(time), bench.poses());
+}
+
+TEST(EntityMemory, AScanTellsWhetherADoorIsClosed) {
+  MemoryBench bench;
+  SightingMaker maker(21);
+  seeDoor(bench, maker, 10);
+  for (int i = 0; i < 5; ++i) scan(bench, Scene::kOpening, 0.0, 10.0 + 0.2 * i);
+  ASSERT_THAT(bench.entities(), SizeIs(1));
+  EXPECT_NE(doorOf(bench.entities()[0]).state, DoorState::kClosed);
+  EXPECT_GE(bench.entities()[0].lastSeen, test::at(10.0));
+  for (int i = 0; i < 5; ++i) scan(bench, Scene::kWall, 0.2, 20.0 + 0.2 * i);
+  EXPECT_EQ(doorOf(bench.entities()[0]).state, DoorState::kClosed);
+  for (int i = 0; i < 5; ++i) scan(bench, Scene::kAjarLeaf, 0.0, 30.0 + 0.2 * i);
+  EXPECT_NE(doorOf(bench.entities()[0]).state, DoorState::kClosed);
+}
+
+TEST(EntityMemory, AScanThatDoesNotShowADoorTellsNothingOfIt) {
+  MemoryBench bench;
+  SightingMaker maker(22);
+  seeDoor(bench, maker, 10);
+  for (int i = 0; i < 5; ++i) {
+    scan(bench, Scene::kSomebodyBefore, 0.0, 10.0 + 0.2 * i);
+    scan(bench, Scene::kOpening, 12.0, 10.1 + 0.2 * i);
+  }
+  auto lost = geometry::Pose3::Identity();
+  lost.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  bench.memory.look({0}, lost, {}, test::at(20.0), bench.poses());
+  bench.memory.look({0}, geometry::Pose3::Identity(), {}, test::at(20.0), bench.poses());
+  ASSERT_THAT(bench.entities(), SizeIs(1));
+  EXPECT_EQ(doorOf(bench.entities()[0]).state, DoorState::kClosed);
+  EXPECT_LT(bench.entities()[0].lastSeen, test::at(10.0));
 }
 
 TEST(EntityMemory, WhatOneLooksThroughIsNoClosedLeafWhateverAnImageSays) {

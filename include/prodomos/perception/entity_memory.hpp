@@ -72,6 +72,9 @@ class EntityMemory {
   /// A look at the places where doors and stairs are believed: where it shows something else, that speaks against them
   /// (no wall, free floor, nothing found from near by) or tells their state (one sees through).
   void look(base::SubMapId submap, const RgbdView& view, const Surfaces& surfaces, const SubMapPoses& poses);
+  /// The same with a level scan, which tells of doors whether they are closed.
+  void look(base::SubMapId submap, const geometry::Pose3& T_submap_sensor, const sensors::LaserScan& scan,
+            base::Time time, const SubMapPoses& poses);
 
   /// Those sure enough, by id, as known now; each in the frame of the sub-map in which it was seen best.
   std::vector<map::Entity> entities() const;
