@@ -11,6 +11,7 @@ namespace prodomos::apps {
 void addReplay(CLI::App& program);
 void addInfo(CLI::App& program);
 void addQuery(CLI::App& program);
+void addReport(CLI::App& program);
 void addExport(CLI::App& program);
 void addView(CLI::App& program);
 void addEvaluate(CLI::App& program);

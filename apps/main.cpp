@@ -23,9 +23,10 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.get_formatter()->column_width(34);
   program.footer("prodomos COMMAND --help has options and examples of each command.");
-  for (const auto add : {prodomos::apps::addReplay, prodomos::apps::addInfo, prodomos::apps::addQuery,
-                         prodomos::apps::addExport, prodomos::apps::addView, prodomos::apps::addEvaluate,
-                         prodomos::apps::addOptimize, prodomos::apps::addSimulate, prodomos::apps::addConfig}) {
+  for (const auto add :
+       {prodomos::apps::addReplay, prodomos::apps::addInfo, prodomos::apps::addQuery, prodomos::apps::addReport,
+        prodomos::apps::addExport, prodomos::apps::addView, prodomos::apps::addEvaluate, prodomos::apps::addOptimize,
+        prodomos::apps::addSimulate, prodomos::apps::addConfig}) {
     add(program);
   }
   try {

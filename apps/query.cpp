@@ -89,7 +89,7 @@ void print(const query::PredictedRoom& room) {
             << room.cause;
   if (room.doorState) std::cout << " (" << map::toString(*room.doorState) << ")";
   std::cout << "  stand at " << spot(viewpoint.x, viewpoint.y) << " facing " << degrees(viewpoint.theta)
-            << (room.isViewpointFree ? "" : ", which nobody has seen");
+            << (room.isViewpointFree ? "" : ", which nobody has seen") << (room.blocked ? ", blocked" : "");
   if (room.route) {
     std::cout << ", " << fixed(room.route->length, 1) << " m away: " << fixed(*room.gainPerMetre, 1) << " m²/m";
   }

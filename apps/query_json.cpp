@@ -81,6 +81,7 @@ json toJson(const query::PredictedRoom& room) {
           {"free_floor", free},
           {"viewpoint", toJson(room.viewpoint_in_map)},
           {"viewpoint_is_free", room.isViewpointFree},
+          {"blocked", room.blocked ? json(base::toString(*room.blocked)) : json(nullptr)},
           {"route", toJson(room.route)},
           {"gain_per_metre", orNull(room.gainPerMetre)}};
 }

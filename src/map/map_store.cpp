@@ -118,7 +118,7 @@ class ChangeWriter {
                                            "entity, submap, node, " + poseColumns() +
                                                ", probability, expected_area, areas, room, made_ns, state, "
                                                "settled_ns, merged_into, viewpoint_x, viewpoint_y, "
-                                               "viewpoint_theta, revision"));
+                                               "viewpoint_theta, blocked_ns, revision"));
     for (const auto& prediction : predictions) {
       const auto& viewpoint = prediction.viewpoint_in_submap;
       const auto ofViewpoint = [&](double geometry::Pose2::*coordinate) {
@@ -128,7 +128,7 @@ class ChangeWriter {
           << prediction.probability << prediction.expectedArea << toJson(prediction.areas)
           << toJson(prediction.room_in_node) << prediction.made << toString(prediction.state) << prediction.settled
           << prediction.mergedInto << ofViewpoint(&geometry::Pose2::x) << ofViewpoint(&geometry::Pose2::y)
-          << ofViewpoint(&geometry::Pose2::theta) << revision_;
+          << ofViewpoint(&geometry::Pose2::theta) << prediction.blocked << revision_;
       row.run();
     }
   }

@@ -70,7 +70,7 @@ std::vector<Prediction> readPredictions(const Database& database) {
   if (!hasPredictions(database)) return predictions;
   auto row = database.prepare(
       "SELECT id, entity, submap, node, probability, expected_area, areas, room, made_ns, state, "
-      "settled_ns, merged_into, viewpoint_x, viewpoint_y, viewpoint_theta, " +
+      "settled_ns, merged_into, viewpoint_x, viewpoint_y, viewpoint_theta, blocked_ns, " +
       poseColumns() + " FROM prediction ORDER BY id");
   while (row.step()) {
     Prediction prediction;
@@ -89,7 +89,8 @@ std::vector<Prediction> readPredictions(const Database& database) {
     if (row.find<double>(12)) {
       prediction.viewpoint_in_submap = {row.get<double>(12), row.get<double>(13), row.get<double>(14)};
     }
-    prediction.T_submap_node = getPose(row, 15);
+    if (row.find<std::int64_t>(15)) prediction.blocked = getTime(row, 15);
+    prediction.T_submap_node = getPose(row, 16);
     predictions.push_back(std::move(prediction));
   }
   return predictions;

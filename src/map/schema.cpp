@@ -76,7 +76,8 @@ CREATE TABLE prediction (
   node INTEGER NOT NULL,
   x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL, qx REAL NOT NULL, qy REAL NOT NULL, qz REAL NOT NULL, qw REAL NOT NULL,
   probability REAL NOT NULL, expected_area REAL NOT NULL, areas TEXT NOT NULL, room TEXT NOT NULL,
-  viewpoint_x REAL, viewpoint_y REAL, viewpoint_theta REAL, made_ns INTEGER NOT NULL, state TEXT NOT NULL, settled_ns INTEGER, merged_into INTEGER REFERENCES node, revision INTEGER NOT NULL);
+  viewpoint_x REAL, viewpoint_y REAL, viewpoint_theta REAL, made_ns INTEGER NOT NULL, state TEXT NOT NULL,
+  settled_ns INTEGER, blocked_ns INTEGER, merged_into INTEGER REFERENCES node, revision INTEGER NOT NULL);
 )sql";
 
 // Where the robot was within its sub-map, which never moves internally: refinement moves the sub-maps alone.

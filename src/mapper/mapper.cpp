@@ -26,6 +26,7 @@ namespace {
 /// A camera or robot whose recorded height is beyond this stands in a world whose floor is not z = 0.
 constexpr double kMostClearance = 2.5;
 
+constexpr double kLookStep = 2.0;    // metres travelled between two looks around for doorways, and at what lies beyond
 constexpr double kDoorStep = 0.25;   // metres travelled between two looks whether a door was passed
 constexpr double kBeyondDoor = 0.4;  // metres from a door, where the next sub-map may begin
 constexpr double kLeastWay = 1.5;    // metres; shorter sub-maps show too little to be found again
@@ -64,6 +65,7 @@ class Mapper::Impl {
   void process(sensors::Reading reading);
   void skip(const sensors::Skipped& skipped);
   void finish(const sensors::EndOfLog& end);
+  void tell(base::PredictionId id, map::Finding finding);
   ResumePoint resumePoint() const { return {report.read, waitingWhenInterrupted_}; }
   void restore(std::vector<std::pair<std::int64_t, sensors::Reading>>&& waiting);
   map::MapView view() const;
@@ -116,8 +118,13 @@ class Mapper::Impl {
   void nameWays();
   /// For doorways, in a finished sub-map and what lies about it.
   void lookAround(base::SubMapId submap);
+  /// Within the running sub-map: who waits for its end has often passed doorways that he could have told of.
+  void glance();
   /// Bets on what lies beyond, as far as the finished sub-map told anything new; everywhere, where none is named.
   void predict(std::optional<base::SubMapId> finished, const std::vector<map::Track>& tracks);
+  /// What is known now; refers to what is given.
+  prediction::World world(std::span<const map::Entity> entities, std::span<const map::Node> nodes,
+                          std::span<const map::Track> tracks);
 
   void use(const sensors::Reading& reading);
   void skip(const std::string& reason) { ++report.skippedByReason[reason]; }
@@ -289,6 +296,7 @@ void Mapper::Impl::travelTo(const Localizer::Located& located, const sensors::Re
   T_travel_lastBody_ = T_travel_body;
   report.distance = session_.distance += T_last_body.translation().norm();
   running_->move(T_last_body, located.covariance);
+  if (running_->isTimeToLook(RunningSubMap::Look::kAround, kLookStep)) glance();
 
   if (located.T_upright_travel) {
     standUpright(*located.T_upright_travel);
@@ -379,7 +387,8 @@ std::vector<Eigen::Vector3d> Mapper::Impl::way_in_map(base::SubMapId submap,
 }
 
 bool Mapper::Impl::hasPassedDoor() {
-  if (running_->node().distance < kLeastWay || !running_->isTimeToLookForDoors(kDoorStep)) return false;
+  if (running_->node().distance < kLeastWay || !running_->isTimeToLook(RunningSubMap::Look::kForDoorsPassed, kDoorStep))
+    return false;
   const auto way = way_in_map(running_->node().id, running_->way_in_submap());
   const auto crossed = doorCrossed(way, passages());
   return crossed && crossed->beyond >= kBeyondDoor;
@@ -408,19 +417,31 @@ void Mapper::Impl::lookAround(base::SubMapId submap) {
   if (around) perception_->lookAround(*around, submapPoses());
 }
 
+void Mapper::Impl::glance() {
+  lookAround(running_->node().id);
+  const auto timing = times.measure("predict");
+  const auto entities = perception_->entities();
+  const auto nodes = refiner_.nodes();
+  predictor_->glance(world(entities, nodes, {}), running_->node().id);
+}
+
+prediction::World Mapper::Impl::world(std::span<const map::Entity> entities, std::span<const map::Node> nodes,
+                                      std::span<const map::Track> tracks) {
+  return {.now = session_.end,
+          .session = session_.id,
+          .entities = entities,
+          .nodes = nodes,
+          .gridsNear = [this](const auto& spot) { return surroundings_.gridsNear(spot, running_->submap()); },
+          .newNodeId = [this] { return refiner_.newNodeId(); },
+          .newEdgeId = [this] { return refiner_.newEdgeId(); },
+          .tracks = tracks};
+}
+
 void Mapper::Impl::predict(std::optional<base::SubMapId> finished, const std::vector<map::Track>& tracks) {
   const auto timing = times.measure("predict");
   const auto entities = perception_->entities();
   const auto nodes = refiner_.nodes();
-  predictor_->update({.now = session_.end,
-                      .session = session_.id,
-                      .entities = entities,
-                      .nodes = nodes,
-                      .gridsNear = [&](const auto& spot) { return surroundings_.gridsNear(spot, running_->submap()); },
-                      .newNodeId = [&] { return refiner_.newNodeId(); },
-                      .newEdgeId = [&] { return refiner_.newEdgeId(); },
-                      .tracks = tracks},
-                     finished);
+  predictor_->update(world(entities, nodes, tracks), finished);
   report.refused = predictor_->refused();
 }
 
@@ -460,6 +481,14 @@ void Mapper::Impl::commit(map::MapChange change) {
   isOpen_ = false;
   store_.commit(change);
   isOpen_ = session_.state == map::SessionState::kRunning;
+}
+
+void Mapper::Impl::tell(base::PredictionId id, map::Finding finding) {
+  requireOpen();
+  predictor_->tell(id, finding, session_.id, session_.end);
+  map::MapChange change;
+  predictor_->addTo(change);
+  commit(std::move(change));
 }
 
 void Mapper::Impl::finish(const sensors::EndOfLog& end) {
@@ -561,6 +590,9 @@ void Mapper::skip(const sensors::Skipped& skipped) {
 }
 void Mapper::finish(const sensors::EndOfLog& end) {
   impl_->finish(end);
+}
+void Mapper::tell(base::PredictionId id, map::Finding finding) {
+  impl_->tell(id, finding);
 }
 ResumePoint Mapper::resumePoint() const {
   return impl_->resumePoint();

@@ -44,9 +44,10 @@ std::vector<Eigen::Vector3d> RunningSubMap::way_in_submap() const {
   return way;
 }
 
-bool RunningSubMap::isTimeToLookForDoors(double step) {
-  if (submap_.node.distance - wayAtLastDoors_ < step) return false;
-  wayAtLastDoors_ = submap_.node.distance;
+bool RunningSubMap::isTimeToLook(Look look, double step) {
+  auto& last = wayAtLooks_[static_cast<std::size_t>(look)];
+  if (submap_.node.distance - last < step) return false;
+  last = submap_.node.distance;
   return true;
 }
 

@@ -7,6 +7,7 @@
 #include "prodomos/map/occupancy_grid.hpp"
 #include "prodomos/mapper/config.hpp"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -33,8 +34,9 @@ class RunningSubMap {
   const map::SubMap& submap() const { return submap_; }
   /// Where the robot was at each reading; positions of its body.
   std::vector<Eigen::Vector3d> way_in_submap() const;
-  /// Metres travelled since this was asked last, or since the sub-map began, are at least so many.
-  bool isTimeToLookForDoors(double step);
+  /// Every so many metres within, each once: what is asked for here.
+  enum class Look { kForDoorsPassed, kAround };
+  bool isTimeToLook(Look look, double step);
   /// Is this reading's place a sub-map of its own (002 §II-A)?
   bool isLeftBy(const map::PlacedReading& placed, const SubMapConfig& config);
   /// False where no layer takes anything from the reading.
@@ -59,7 +61,7 @@ class RunningSubMap {
   // seen a moment before.
   std::optional<map::OccupancyGrid> seenAtBegin_;
   double wayAtLastLook_ = 0.0;
-  double wayAtLastDoors_ = 0.0;
+  std::array<double, 2> wayAtLooks_{};  // by Look
   double turnAtLastLook_ = 0.0;
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prodomos/prediction/predictor.hpp"
 
+#include "prodomos/base/error.hpp"
 #include "prodomos/prediction/room_guess.hpp"
 #include "prodomos/prediction/viewpoint.hpp"
 
@@ -133,7 +134,7 @@ void Predictor::review(const World& world) {
     const auto* const cause = findById(world.entities, bet.prediction.cause);
     const bool isGone = cause == nullptr || !faultOf(*cause).empty();
     if (isGone && submap->session == world.session) {
-      settle(bet, PredictionState::kRefuted, world);
+      settle(bet, PredictionState::kRefuted, world.session, world.now);
     } else {
       place(world, bet, *submap);
     }
@@ -269,12 +270,13 @@ void Predictor::follow(const World& world, const map::Entity& entity, const map:
   const auto around = surroundingsOf(world, entity, submap);
   const auto space = spaceBehind(around, openingWidth(entity));
   if (const auto within = submapWithin(space, around.T_map_here(), world.nodes)) {
-    return settle(bet, PredictionState::kMerged, world, within);
+    return settle(bet, PredictionState::kMerged, world.session, world.now, within);
   }
   if (space.seen >= kLeastSpace && space.unseen < kMostlyUnseen * space.seen)
-    return settle(bet, PredictionState::kConfirmed, world);
-  if (space.seen + space.unseen < kLeastSpace) return settle(bet, PredictionState::kRefuted, world);
-  if (!shape(world, entity, around, bet.prediction)) return settle(bet, PredictionState::kRefuted, world);
+    return settle(bet, PredictionState::kConfirmed, world.session, world.now);
+  if (space.seen + space.unseen < kLeastSpace) return settle(bet, PredictionState::kRefuted, world.session, world.now);
+  if (!shape(world, entity, around, bet.prediction))
+    return settle(bet, PredictionState::kRefuted, world.session, world.now);
   bet.prediction.viewpoint_in_submap = viewpointOf(world, entity, submap, around);
   bet.ways.front().information = informationOf(entity);
   bet.isNews = true;
@@ -299,12 +301,26 @@ void Predictor::place(const World& world, Bet& bet, const map::Node& submap) {
   }
 }
 
-void Predictor::settle(Bet& bet, PredictionState state, const World& world, std::optional<base::SubMapId> mergedInto) {
+void Predictor::settle(Bet& bet, PredictionState state, base::SessionId session, base::Time now,
+                       std::optional<base::SubMapId> mergedInto) {
   bet.prediction.state = state;
-  bet.prediction.settled = world.now;
+  bet.prediction.settled = now;
   bet.prediction.mergedInto = mergedInto;
   bet.isNews = true;
-  events_.push_back(eventOf(bet.prediction, world.session, world.now));
+  events_.push_back(eventOf(bet.prediction, session, now));
+}
+
+void Predictor::tell(base::PredictionId id, map::Finding finding, base::SessionId session, base::Time now) {
+  const auto bet = std::ranges::find(bets_, id, [](const Bet& each) { return each.prediction.id; });
+  if (bet == bets_.end()) throw base::Error("there is no predicted room " + toString(id));
+  if (bet->prediction.state != PredictionState::kOpen) {
+    throw base::Error("prediction " + toString(id) + " is settled: it was " +
+                      std::string(toString(bet->prediction.state)));
+  }
+  if (finding == map::Finding::kRefuted) return settle(*bet, PredictionState::kRefuted, session, now);
+  bet->prediction.blocked = now;
+  bet->isNews = true;
+  events_.push_back({now, session, "prediction_blocked", toString(id), "{}"});
 }
 
 void Predictor::addTo(map::MapChange& change) {

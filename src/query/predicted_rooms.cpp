@@ -40,6 +40,7 @@ PredictedRoom roomOf(const map::MapView& view, const map::Prediction& prediction
   room.floor = view.graph().getNode(prediction.node).floor;
   room.probability = prediction.probability;
   room.expectedArea = prediction.expectedArea;
+  room.blocked = prediction.blocked;
   for (const auto& area : prediction.areas) room.freeFloor.push_back(freeFloorOf(view, prediction, area));
   const auto T_map_submap = geometry::toPose2(view.graph().getNode(prediction.submap).T_map_submap);
   room.isViewpointFree = prediction.viewpoint_in_submap.has_value();
@@ -49,7 +50,7 @@ PredictedRoom roomOf(const map::MapView& view, const map::Prediction& prediction
 
 /// Best first.
 auto rankOf(const PredictedRoom& room) {
-  return std::tuple(-room.gainPerMetre.value_or(0.0), -room.probability);
+  return std::tuple(room.blocked.has_value(), -room.gainPerMetre.value_or(0.0), -room.probability);
 }
 
 }  // namespace

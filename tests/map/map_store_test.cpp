@@ -349,7 +349,11 @@ TEST_F(MapFile, KeepsPredictions) {
   open.areas = {{.threshold = 0.5, .outline_in_node = {{-1, 2}, {0.1, 1.0 / 3.0}}},
                 {.threshold = kNan, .outline_in_node = {{kNan, 1}}}};
   open.made = at(12);
+  open.viewpoint_in_submap = {1.0 / 3.0, -0.5, 0.1};
+  open.blocked = at(13);
   Prediction settled = open;
+  settled.viewpoint_in_submap = std::nullopt;
+  settled.blocked = std::nullopt;
   settled.id = {2};
   settled.areas = {};
   settled.state = PredictionState::kMerged;
@@ -370,6 +374,10 @@ TEST_F(MapFile, KeepsPredictions) {
   EXPECT_EQ(first.room_in_node[0], open.room_in_node[0]);
   EXPECT_TRUE(std::isnan(first.room_in_node[1].x()));
   EXPECT_EQ(first.probability, 0.82);
+  EXPECT_EQ(first.viewpoint_in_submap, open.viewpoint_in_submap);
+  EXPECT_EQ(first.blocked, at(13));
+  EXPECT_EQ(view.predictions()[1].viewpoint_in_submap, std::nullopt);
+  EXPECT_EQ(view.predictions()[1].blocked, std::nullopt);
   EXPECT_EQ(first.expectedArea, 11.5);
   EXPECT_EQ(first.made, at(12));
   EXPECT_EQ(first.state, PredictionState::kOpen);

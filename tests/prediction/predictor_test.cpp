@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "prodomos/prediction/predictor.hpp"
 
+#include "prodomos/base/error.hpp"
+
 #include "support/sample_map.hpp"
 
 #include <gmock/gmock.h>
@@ -244,6 +246,26 @@ TEST(Predictor, TwoDoorsIntoOneRoomLeadToOneNode) {
   world.remove(second);
   world.update(predictor, 8.0);
   EXPECT_EQ(world.view().predictions()[0].state, PredictionState::kOpen);
+}
+
+TEST(Predictor, TakesThePlannersWord) {
+  World world;
+  world.addDoor(0.0);
+  Predictor predictor({}, world.view());
+  world.update(predictor, 5.0);
+  const auto id = world.view().predictions().at(0).id;
+  const auto at = [](double seconds) { return base::fromNanoseconds(std::int64_t(seconds * 1e9)); };
+  predictor.tell(id, map::Finding::kBlocked, {1}, at(6.0));
+  world.update(predictor, 7.0);
+  EXPECT_EQ(world.view().predictions().at(0).state, PredictionState::kOpen);
+  EXPECT_EQ(world.view().predictions().at(0).blocked, at(6.0));
+  predictor.tell(id, map::Finding::kRefuted, {1}, at(8.0));
+  world.update(predictor, 9.0);
+  EXPECT_EQ(world.view().predictions().at(0).state, PredictionState::kRefuted);
+  EXPECT_EQ(world.view().predictions().at(0).settled, at(8.0));
+  EXPECT_THAT(world.view().graph().nodes(), SizeIs(1));
+  EXPECT_THROW(predictor.tell(id, map::Finding::kBlocked, {1}, at(9.0)), base::Error) << "it is settled";
+  EXPECT_THROW(predictor.tell({77}, map::Finding::kBlocked, {1}, at(9.0)), base::Error);
 }
 
 TEST(Predictor, SaysWhereToStand) {

@@ -233,6 +233,9 @@ TEST(PredictedRooms, ComeByTheirGainPerMetre) {
   };
   EXPECT_THAT(idsOf(predictedRooms(store.view(), 0.0, Position{0, 0, 0})), ElementsAre(1, 2, 3));
   EXPECT_THAT(idsOf(predictedRooms(store.view())), ElementsAre(2, 3, 1)) << "by probability, where nobody walks";
+  far.blocked = base::Time{};
+  store.commit({.predictions = {far}});
+  EXPECT_THAT(idsOf(predictedRooms(store.view())), ElementsAre(3, 1, 2)) << "what is blocked comes last";
 }
 
 TEST_F(SampleMapQuery, TellsTheFreeFloorOfAPredictedRoom) {

@@ -14,6 +14,9 @@
 
 namespace prodomos::map {
 
+/// What a planner found where it went for a predicted room: nothing there, or a way that cannot be gone.
+enum class Finding { kRefuted, kBlocked };
+
 enum class PredictionState { kOpen, kConfirmed, kRefuted, kMerged };
 
 /// {u | f(u) / max f > threshold}: the free floor that is expected at one relative threshold (002 eq. (2), (3), (5)).
@@ -39,6 +42,7 @@ struct Prediction {
   PredictionState state = PredictionState::kOpen;
   std::optional<base::Time> settled;
   std::optional<base::SubMapId> mergedInto;
+  std::optional<base::Time> blocked{};  ///< when a planner last found that the way there cannot be gone
 
   /// Floor that is free if a person leaves, in the sub-map where it was seen: no sub-map of its own.
   bool isConditional() const { return node == submap; }

@@ -52,6 +52,9 @@ class Mapper {
   /// Places what still waits, finishes the running sub-map and the session. A log that ended early is reported.
   void finish(const sensors::EndOfLog& end = {});
 
+  /// What a planner found where it went for a predicted room. Throws base::Error where there is no open one of that id.
+  void tell(base::PredictionId id, map::Finding finding);
+
   ResumePoint resumePoint() const;
   /// Hands in the waiting items of the resume point again, before anything else. What is not handed in is lost, and
   /// counted when the session finishes.

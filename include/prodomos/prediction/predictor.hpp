@@ -31,6 +31,9 @@ class Predictor {
   /// The same while the robot is still in the sub-map, of doors and stairs alone: people are on their ways still.
   void glance(const World& world, base::SubMapId seen);
 
+  /// A planner went there: what it found is evidence. Refuted bets are settled; blocked ones stay open, and say so.
+  /// Throws base::Error where the prediction is none of a room, or settled.
+  void tell(base::PredictionId id, map::Finding finding, base::SessionId session, base::Time now);
   /// Entities that M(S) refused in this session, by reason.
   std::map<std::string, std::int64_t> refused() const { return refusals_.byReason(); }
   /// What has changed since the last call.
@@ -52,7 +55,8 @@ class Predictor {
   void leave(base::EntityId entity, const Bet* except);
   void bet(const World& world, const map::Entity& entity, const map::Node& submap);
   void follow(const World& world, const map::Entity& entity, const map::Node& submap, Bet& bet);
-  void settle(Bet& bet, map::PredictionState state, const World& world, std::optional<base::SubMapId> mergedInto = {});
+  void settle(Bet& bet, map::PredictionState state, base::SessionId session, base::Time now,
+              std::optional<base::SubMapId> mergedInto = {});
   std::optional<double> shape(const World& world, const map::Entity& entity, const Surroundings& around,
                               map::Prediction& prediction);
   void place(const World& world, Bet& bet, const map::Node& submap);

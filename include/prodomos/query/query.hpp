@@ -59,17 +59,18 @@ struct PredictedRoom {
   base::EntityId cause;                     ///< the door or staircase
   std::optional<map::DoorState> doorState;  ///< none for stairs
   std::optional<int> floor;
-  double probability = 0.0;          ///< that an unseen space of at least 2 m² lies there
-  double expectedArea = 0.0;         ///< m²
-  std::vector<FreeFloor> freeFloor;  ///< by ascending threshold
-  geometry::Pose2 viewpoint_in_map;  ///< where to stand to enter it, facing the way
-  bool isViewpointFree = false;      ///< that floor was seen free; false: nobody has seen the floor there
-  std::optional<Route> route;        ///< to the viewpoint, from `from` where one was given
+  double probability = 0.0;           ///< that an unseen space of at least 2 m² lies there
+  double expectedArea = 0.0;          ///< m²
+  std::vector<FreeFloor> freeFloor;   ///< by ascending threshold
+  geometry::Pose2 viewpoint_in_map;   ///< where to stand to enter it, facing the way
+  bool isViewpointFree = false;       ///< that floor was seen free; false: nobody has seen the floor there
+  std::optional<base::Time> blocked;  ///< when a planner last found that the way there cannot be gone
+  std::optional<Route> route;         ///< to the viewpoint, from `from` where one was given
   /// m²/m: expected area times probability, by the length of the route (at least 1 m); none without a route.
   std::optional<double> gainPerMetre;
 };
 
-/// Those with a route first, the greatest gain per metre before others; then by probability.
+/// Those that can be reached first, the greatest gain per metre before others; then by probability; blocked ones last.
 std::vector<PredictedRoom> predictedRooms(const map::MapView& view, double leastProbability = 0.0,
                                           std::optional<Position> from = std::nullopt);
 
