@@ -31,6 +31,7 @@ namespace {
 using namespace prodomos;
 
 constexpr double kSubmapLength = 10.0;  // metres of way
+constexpr double kScanPause = 0.16;     // seconds between scans that are looked at
 constexpr double kStoreyChange = 1.0;   // metres of climbing, after which a new sub-map begins
 constexpr base::SessionId kSession{1};
 constexpr double kDegrees = 180.0 / std::numbers::pi;
@@ -137,6 +138,7 @@ class Drive {
     const auto T_submap_body = T_map_submap_.back().inverse() * T_world_body;
     if (const auto* scan = std::get_if<sensors::LaserScan>(&reading.data)) {
       grid_.insert(*scan, T_submap_body * scan->T_body_sensor);
+      perceive(reading.time, *scan, T_submap_body);
     } else if (const auto* frame = std::get_if<sensors::RgbdFrame>(&reading.data)) {
       perceive(reading.time, *frame, T_submap_body);
       ++score_.frames;
@@ -173,6 +175,18 @@ class Drive {
   auto timed(const char* name, const Find& find) {
     const auto timing = times_.measure(name);
     return find();
+  }
+
+  void perceive(base::Time time, const sensors::LaserScan& scan, const geometry::Pose3& T_submap_body) {
+    if (lastScan_ && base::seconds(time - *lastScan_) < kScanPause) return;
+    lastScan_ = time;
+    const auto doors = timed("scans", [&] {
+      return findOpenDoors(scan, T_submap_body, T_submap_body.translation().z(), time, config_.openDoors);
+    });
+    count("scans", doors);
+    const auto T_submap_sensor = T_submap_body * scan.T_body_sensor;
+    memory_.add(submap(), T_submap_sensor, doors, poses());
+    if (config_.openDoors.fromLaser) memory_.look(submap(), T_submap_sensor, scan, time, poses());
   }
 
   void perceive(base::Time time, const sensors::RgbdFrame& frame, const geometry::Pose3& T_submap_body) {
@@ -393,6 +407,7 @@ class Drive {
   map::OccupancyGrid grid_;
   Eigen::Vector2d observer_ = Eigen::Vector2d::Zero();
   base::Time now_{};
+  std::optional<base::Time> lastScan_;
   base::StageTimes times_;
   LogScore score_;
 };
