@@ -40,18 +40,18 @@ HindsightLevel scoreLevel(const Retrospect& past, double threshold) {
   HindsightLevel level;
   for (const auto& bet : past.claims.spaces) {
     const auto* const outline = findArea(bet, threshold);
-    if (outline == nullptr || !bet.settled || !bet.storey || !bet.mobility) continue;
     const auto told = past.toldAt(bet);
+    if (outline == nullptr || !told || !bet.storey || !bet.mobility) continue;
     auto& cells = level.byMobility[static_cast<std::size_t>(*bet.mobility)];
     for (const auto cell : cellsIn(*outline)) {
-      const auto fate = fateOf(past, bet, told, cell);
+      const auto fate = fateOf(past, bet, *told, cell);
       if (fate == CellFate::kRight) ++cells.free;
       if (fate == CellFate::kWrong) ++cells.occupied;
       if (fate == CellFate::kNobodyKnows) ++cells.unknown;
     }
     if (const auto* const door = past.findDoor(bet.cause)) {
       level.halfDiscs.addBehind(door->T_world_door,
-                                [&](geometry::CellIndex cell) { return fateOf(past, bet, told, cell); });
+                                [&](geometry::CellIndex cell) { return fateOf(past, bet, *told, cell); });
     }
   }
   return level;
@@ -71,7 +71,7 @@ void scoreRooms(const Retrospect& past, HindsightScore& score) {
       ++score.roomsNotSeen;
       continue;
     }
-    const auto told = past.toldAt(bet);
+    const auto told = *past.toldAt(bet);
     const DoorView seen(door->T_world_door, room->cells, [&](const Eigen::Vector2d& spot) {
       return past.known.isKnown(*bet.storey, geometry::cellAt(spot.x(), spot.y(), kCell), told);
     });

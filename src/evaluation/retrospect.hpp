@@ -7,6 +7,8 @@
 #include "prodomos/evaluation/observed_places.hpp"
 #include "prodomos/map/map_view.hpp"
 
+#include <optional>
+#include <set>
 #include <vector>
 
 namespace prodomos::evaluation {
@@ -23,8 +25,14 @@ struct Retrospect {
 
   /// Null where it is no door, or is believed no more.
   const ClaimedDoor* findDoor(base::EntityId id) const;
-  /// Of a settled bet. The ledger keeps it as it was told last before that: with what earlier sub-maps had seen.
-  base::Time toldAt(const ClaimedSpace& bet) const;
+  /// When the bet told what `claims` have of it: when it was made. Of maps whose events do not keep that, it is told as
+  /// it was last before it was settled, with what earlier sub-maps had seen; none of those that are still open.
+  std::optional<base::Time> toldAt(const ClaimedSpace& bet) const;
+
+ private:
+  void recall(const map::MapView& view);
+
+  std::set<base::PredictionId> recalled_;  ///< told as when they were made
 };
 
 /// Settled, and there was an unseen space.

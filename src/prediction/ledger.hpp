@@ -6,7 +6,6 @@
 #include "prodomos/map/records.hpp"
 
 #include <algorithm>
-#include <string>
 
 /// What those who make bets have in common.
 namespace prodomos::prediction {
@@ -21,11 +20,7 @@ auto findById(Things& things, Id id) {
   return found == things.end() ? nullptr : &*found;
 }
 
-/// The bet was made, or settled.
-inline map::Event eventOf(const map::Prediction& prediction, base::SessionId session, base::Time time) {
-  const bool isOpen = prediction.state == map::PredictionState::kOpen;
-  return {time, session, isOpen ? "prediction_made" : "prediction_settled", toString(prediction.id),
-          R"({"state":")" + std::string(toString(prediction.state)) + R"("})"};
-}
+/// The bet was made, with what it tells then (docs/map-file.md), or settled.
+map::Event eventOf(const map::Prediction& prediction, base::SessionId session, base::Time time);
 
 }  // namespace prodomos::prediction

@@ -149,7 +149,28 @@ TEST_F(Hindsight, WhatWasKnownWhenItWasToldCountsNeitherWay) {
   EXPECT_NEAR(static_cast<double>(cells.all()) * kCell * kCell, 2 * 3.0, 0.1);  // without the corridor
 }
 
-TEST_F(Hindsight, OpenBetsTellNothingAboutFloor) {
+TEST_F(Hindsight, ABetIsJudgedByWhatItToldWhenItWasMade) {
+  bet(PredictionState::kMerged).areas = {{.threshold = 0.5, .outline_in_node = inNode(rectangle(1, 5.2, 3, 7.2))}};
+  change.predictions[0].room_in_node = inNode(rectangle(0, 2.2, 4, 4.2));
+  change.events = {{at(10),
+                    {1},
+                    "prediction_made",
+                    "p0",
+                    R"({"state":"open","submap":1,"areas":[{"threshold":0.5,"outline":[[1,3],[3,3],[3,5],[1,5]]}],)"
+                    R"("room":[[0,2.2],[4,2.2],[4,6.2],[0,6.2]]})"}};
+  EXPECT_EQ(score().levels[0].overall().precision(), 1.0);
+  EXPECT_GT(*score().rooms.ordinary(), 0.97);
+  change.predictions[0].state = PredictionState::kOpen;  // what it told can be judged nonetheless
+  change.predictions[0].settled.reset();
+  EXPECT_EQ(score().levels[0].overall().precision(), 1.0);
+  for (const auto* payload : {"", "[]", "{", R"({"room":[]})", R"({"submap":77,"room":[],"areas":[]})",
+                              R"({"submap":1,"room":[[1]],"areas":[]})", R"({"submap":1,"room":3,"areas":[]})"}) {
+    change.events[0].payload = payload;
+    EXPECT_EQ(score().levels[0].overall().all(), 0U) << payload;
+  }
+}
+
+TEST_F(Hindsight, OpenBetsThatWereToldAnewTellNothingAboutFloor) {
   bet(PredictionState::kOpen).areas = {{.threshold = 0.5, .outline_in_node = inNode(rectangle(1, 3, 3, 5))}};
   EXPECT_EQ(score().levels[0].overall().all(), 0U);
 }
