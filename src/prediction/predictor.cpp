@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace prodomos::prediction {
@@ -81,7 +82,7 @@ Predictor::Predictor(const PredictionConfig& config, const map::MapView& before)
   for (const auto& prediction : before.predictions()) {
     nextId_.value = std::max(nextId_.value, prediction.id.value + 1);
     if (prediction.isConditional()) continue;
-    Bet bet{.prediction = prediction, .node = {}, .ways = {}};
+    Bet bet{.prediction = prediction, .node = {}, .ways = {}, .isTold = true};
     if (const auto* node = before.graph().findNode(prediction.node)) {
       bet.node = *node;
       for (const auto id : before.graph().edgesOf(node->id)) bet.ways.push_back(before.graph().getEdge(id));
@@ -93,6 +94,7 @@ Predictor::Predictor(const PredictionConfig& config, const map::MapView& before)
 void Predictor::update(const World& world, std::optional<base::SubMapId> seen) {
   if (!config_.enabled) return;
   lookThroughOpenings(world, seen);
+  forgetWhatNobodyHeard(world);
   walks_.update(
       world, seen, [this] { return newId(); }, refusals_);
 }
@@ -135,10 +137,23 @@ void Predictor::review(const World& world) {
     const bool isGone = cause == nullptr || !faultOf(*cause).empty();
     if (isGone && submap->session == world.session) {
       settle(bet, PredictionState::kRefuted, world.session, world.now);
-    } else {
-      place(world, bet, *submap);
+      continue;
     }
+    for (const auto& way : std::span(bet.ways).subspan(1)) {
+      if (findById(world.entities, *way.cause) == nullptr) removedWays_.push_back(way.id);
+    }
+    std::erase_if(bet.ways, [this](const map::Edge& way) { return std::ranges::count(removedWays_, way.id) > 0; });
+    place(world, bet, *submap);
   }
+}
+
+/// Bets on doors that were given up again before anybody was told of either: the map does not know such doors.
+void Predictor::forgetWhatNobodyHeard(const World& world) {
+  std::erase_if(bets_, [&](const Bet& bet) {
+    if (bet.isTold || findById(world.entities, bet.prediction.cause) != nullptr) return false;
+    std::erase_if(events_, [&](const map::Event& event) { return event.subject == toString(bet.prediction.id); });
+    return true;
+  });
 }
 
 /// Where another door leads into a room that is bet on already: that bet.
@@ -326,6 +341,7 @@ void Predictor::tell(base::PredictionId id, map::Finding finding, base::SessionI
 void Predictor::addTo(map::MapChange& change) {
   for (auto& bet : bets_) {
     if (!std::exchange(bet.isNews, false)) continue;
+    bet.isTold = true;
     change.predictions.push_back(bet.prediction);
     if (bet.prediction.state == PredictionState::kOpen) {
       change.nodes.push_back(bet.node);

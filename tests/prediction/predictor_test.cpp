@@ -105,7 +105,8 @@ class World {
     predictor.update(known(now), std::nullopt);
     return commit(predictor);
   }
-  /// As it does on the way.
+  /// As it does on the way; the map is told later.
+  void look(Predictor& predictor, double now) { predictor.glance(known(now), nodes_.back().id); }
   map::MapChange glance(Predictor& predictor, double now) {
     predictor.glance(known(now), nodes_.back().id);
     return commit(predictor);
@@ -246,6 +247,20 @@ TEST(Predictor, TwoDoorsIntoOneRoomLeadToOneNode) {
   world.remove(second);
   world.update(predictor, 8.0);
   EXPECT_EQ(world.view().predictions()[0].state, PredictionState::kOpen);
+}
+
+TEST(Predictor, SaysNothingOfDoorsThatWereGivenUpBeforeAnybodyHeardOfThem) {
+  World world;
+  const auto first = world.addDoor(0.0);
+  Predictor predictor({}, world.view());
+  world.look(predictor, 5.0);
+  world.remove(first);
+  const auto second = world.addDoor(6.0);
+  const auto change = world.update(predictor, 6.0);
+  ASSERT_THAT(change.predictions, SizeIs(1));
+  EXPECT_EQ(change.predictions[0].cause, second);
+  EXPECT_THAT(change.events, SizeIs(1));
+  EXPECT_THAT(change.removedNodes, IsEmpty());
 }
 
 TEST(Predictor, TakesThePlannersWord) {

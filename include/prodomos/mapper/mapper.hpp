@@ -52,7 +52,8 @@ class Mapper {
   /// Places what still waits, finishes the running sub-map and the session. A log that ended early is reported.
   void finish(const sensors::EndOfLog& end = {});
 
-  /// What a planner found where it went for a predicted room. Throws base::Error where there is no open one of that id.
+  /// What a planner found where it went for a predicted room; in the map with the next sub-map that ends. Throws
+  /// base::Error where there is no open one of that id.
   void tell(base::PredictionId id, map::Finding finding);
 
   ResumePoint resumePoint() const;

@@ -45,11 +45,13 @@ class Predictor {
     map::Node node;
     std::vector<map::Edge> ways;  ///< the first through its cause, others through further doors of the same room
     bool isNews = false;
+    bool isTold = false;
   };
 
   base::PredictionId newId() { return std::exchange(nextId_, base::PredictionId{nextId_.value + 1}); }
   void lookThroughOpenings(const World& world, std::optional<base::SubMapId> seen);
   void review(const World& world);
+  void forgetWhatNobodyHeard(const World& world);
   Bet* roomBehind(const map::Entity& entity, const map::Node& submap);
   void share(const World& world, const map::Entity& entity, const map::Node& submap, Bet& room);
   void leave(base::EntityId entity, const Bet* except);
