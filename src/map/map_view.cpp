@@ -183,14 +183,18 @@ std::shared_ptr<const MapLayer> MapView::findLayer(base::SubMapId submap, std::s
 
 std::vector<TrajectoryPoint> MapView::trajectory() const {
   std::vector<TrajectoryPoint> points;
+  visitTrajectory([&](const TrajectoryPoint& point) { points.push_back(point); });
+  return points;
+}
+
+void MapView::visitTrajectory(const std::function<void(const TrajectoryPoint&)>& visit) const {
   auto row = database_->prepare(
       "SELECT session, time_ns, node, travel_x, travel_y, travel_z, travel_qx, travel_qy, travel_qz, travel_qw, "
       "x, y, z, qx, qy, qz, qw FROM trajectory ORDER BY session, id");
   while (row.step()) {
-    points.push_back({getId<base::SessionId>(row, 0), getTime(row, 1), getId<base::SubMapId>(row, 2), getPose(row, 3),
-                      getPose(row, 10)});
+    visit({getId<base::SessionId>(row, 0), getTime(row, 1), getId<base::SubMapId>(row, 2), getPose(row, 3),
+           getPose(row, 10)});
   }
-  return points;
 }
 
 std::vector<Event> MapView::events() const {

@@ -26,9 +26,10 @@ struct WithinPlace {
   const Graph* graph = nullptr;
 
   bool operator()(const Link& link) const {
-    const auto kind = (*graph)[link].kind;
+    const auto& edge = (*graph)[link];
     const auto isPredicted = [&](Vertex vertex) { return (*graph)[vertex].kind == SubMapKind::kPredicted; };
-    return (kind == EdgeKind::kTravelled || kind == EdgeKind::kLoop || kind == EdgeKind::kOverlap) &&
+    // A loop through a door joins no places, and an overlap is no way.
+    return (edge.kind == EdgeKind::kTravelled || edge.kind == EdgeKind::kLoop) && !edge.cause &&
            !isPredicted(source(link, *graph)) && !isPredicted(target(link, *graph));
   }
 };

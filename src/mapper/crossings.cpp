@@ -85,11 +85,12 @@ std::optional<base::EntityId> flightClimbed(std::span<const Eigen::Vector3d> way
 void nameWay(map::Edge& edge, std::span<const Eigen::Vector3d> way_in_map, std::span<const Passage> passages) {
   if (edge.kind == map::EdgeKind::kStairs) {
     edge.cause = flightClimbed(way_in_map, passages);
-  } else if (edge.kind == map::EdgeKind::kTravelled || edge.kind == map::EdgeKind::kDoor) {
-    const auto crossed = doorCrossed(way_in_map, passages);
-    edge.kind = crossed ? map::EdgeKind::kDoor : map::EdgeKind::kTravelled;
-    edge.cause = crossed ? std::optional(crossed->entity) : std::nullopt;
+    return;
   }
+  if (edge.kind == map::EdgeKind::kLift) return;
+  const auto crossed = doorCrossed(way_in_map, passages);
+  edge.cause = crossed ? std::optional(crossed->entity) : std::nullopt;
+  if (edge.kind != map::EdgeKind::kLoop) edge.kind = crossed ? map::EdgeKind::kDoor : map::EdgeKind::kTravelled;
 }
 
 }  // namespace prodomos::mapper

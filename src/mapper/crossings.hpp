@@ -42,7 +42,7 @@ std::optional<base::EntityId> flightClimbed(std::span<const Eigen::Vector3d> way
                                             std::span<const Passage> passages);
 
 /// Tells the edge, which the way leads along, whether it is just travelled or leads through a door, and which door or
-/// flight is its cause.
+/// flight is its cause. Loops stay loops.
 void nameWay(map::Edge& edge, std::span<const Eigen::Vector3d> way_in_map, std::span<const Passage> passages);
 
 }  // namespace prodomos::mapper

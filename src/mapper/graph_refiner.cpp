@@ -138,7 +138,8 @@ std::vector<base::SubMapId> GraphRefiner::nodesOf(base::SessionId session) const
 std::vector<map::Edge> GraphRefiner::waysOf(base::SessionId session) const {
   std::vector<map::Edge> ways;
   for (const auto& tie : ties_) {
-    if (!isFound(tie.edge) && node(tie.edge.from).session == session) ways.push_back(tie.edge);
+    const bool isWay = tie.state == TieState::kBelieved && tie.edge.kind != map::EdgeKind::kOverlap;
+    if (isWay && node(tie.edge.from).session == session) ways.push_back(tie.edge);
   }
   return ways;
 }

@@ -32,7 +32,7 @@ class GraphRefiner {
   /// Moves all sub-maps of a session, as a whole.
   void move(base::SessionId session, const geometry::Pose3& T_after_before);
 
-  /// Ways between sub-maps of the session, by id.
+  /// Ways between sub-maps of the session, loops among them, by id.
   std::vector<map::Edge> waysOf(base::SessionId session) const;
   /// Kind and cause of a way are those now.
   void rename(const map::Edge& way);

@@ -157,6 +157,7 @@ void Mapper::Impl::passOn(map::EdgeKind kind, const geometry::Pose3& T_travel_bo
   auto way = way_in_map(running_->node().id, running_->way_in_submap());
   way.push_back(node.T_map_submap.translation());
   nameWay(edge, way, passages());
+  nameLoops();
   map::MapChange change;
   perception_->addTo(change);
   predict(running_->node().id, change.tracks);

@@ -83,6 +83,7 @@ class Mapper::Impl {
   bool hasPassedDoor();
   /// Doors may be found after they were passed: tells all ways once more what they lead through.
   void nameWays();
+  void nameLoops();
   /// For doorways, in a finished sub-map and what lies about it.
   void lookAround(base::SubMapId submap);
   /// Within the running sub-map: who waits for its end has often passed doorways that he could have told of.

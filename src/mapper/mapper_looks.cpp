@@ -8,6 +8,7 @@ namespace prodomos::mapper {
 
 namespace {
 
+constexpr double kWayStep = 0.1;     // metres between spots of a way
 constexpr double kDoorStep = 0.25;   // metres travelled between two looks whether a door was passed
 constexpr double kBeyondDoor = 0.4;  // metres from a door, where the next sub-map may begin
 constexpr double kLeastWay = 1.5;    // metres; shorter sub-maps show too little to be found again
@@ -39,16 +40,31 @@ bool Mapper::Impl::hasPassedDoor() {
 
 void Mapper::Impl::nameWays() {
   std::map<base::SubMapId, std::vector<Eigen::Vector3d>> ways_in_submap;
-  for (const auto& point : store_.view().trajectory()) {
-    if (point.session != session_.id) continue;
+  store_.view().visitTrajectory([&](const map::TrajectoryPoint& point) {
+    if (point.session != session_.id) return;
     const geometry::Pose3 T_submap_travel = refiner_.node(point.submap).T_travel_submap.inverse();
-    ways_in_submap[point.submap].push_back((T_submap_travel * point.T_travel_body).translation());
-  }
+    const Eigen::Vector3d spot = (T_submap_travel * point.T_travel_body).translation();
+    auto& way = ways_in_submap[point.submap];
+    if (way.empty() || (spot - way.back()).norm() >= kWayStep) way.push_back(spot);
+  });
   const auto known = passages();
   for (auto& edge : refiner_.waysOf(session_.id)) {
+    if (edge.kind == map::EdgeKind::kLoop) continue;
     auto way = way_in_map(edge.from, ways_in_submap[edge.from]);
     way.push_back(refiner_.T_map_submap(edge.to).translation());
     nameWay(edge, way, known);
+    refiner_.rename(edge);
+  }
+}
+
+void Mapper::Impl::nameLoops() {
+  const auto known = passages();
+  for (auto& edge : refiner_.waysOf(session_.id)) {
+    if (edge.kind != map::EdgeKind::kLoop) continue;
+    // The straight line between its ends is free.
+    const std::vector<Eigen::Vector3d> line = {refiner_.T_map_submap(edge.from).translation(),
+                                               refiner_.T_map_submap(edge.to).translation()};
+    nameWay(edge, line, known);
     refiner_.rename(edge);
   }
 }

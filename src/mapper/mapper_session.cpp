@@ -112,6 +112,7 @@ void Mapper::Impl::finish(const sensors::EndOfLog& end) {
     // Once more everywhere: by now the neighbours are known on all sides, and all poses are the best.
     for (const auto submap : refiner_.nodesOf(session_.id)) lookAround(submap);
     nameWays();
+    nameLoops();
     perception_->addTo(change);
     predict(std::nullopt, change.tracks);
   }

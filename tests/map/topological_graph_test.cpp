@@ -257,6 +257,22 @@ TEST(TopologicalGraph, APredictedSubMapIsAPlaceOfItsOwn) {
   EXPECT_THAT(places[1].submaps, ElementsAre(SubMapId{3}));
 }
 
+TEST(TopologicalGraph, ALoopThroughADoorAndAnOverlapJoinNoPlaces) {
+  TopologicalGraph graph;
+  for (int i = 1; i <= 4; ++i) graph.addNode(nodeOf(i));
+  auto through = edgeOf(1, 1, 2);
+  through.kind = EdgeKind::kLoop;
+  through.cause = base::EntityId{7};
+  auto loop = edgeOf(2, 2, 3);
+  loop.kind = EdgeKind::kLoop;
+  auto overlap = edgeOf(3, 3, 4);
+  overlap.kind = EdgeKind::kOverlap;
+  for (const auto& edge : {through, loop, overlap}) graph.addEdge(edge);
+  const auto places = graph.places();
+  ASSERT_EQ(places.size(), 3U);
+  EXPECT_THAT(places[1].submaps, ElementsAre(SubMapId{2}, SubMapId{3}));
+}
+
 TEST(TopologicalGraph, IsWalkedBothWays) {
   TopologicalGraph graph;
   graph.addNode(nodeOf(1));

@@ -94,6 +94,28 @@ TEST(Passages, AreDoorsAndStairsAndNothingElse) {
   EXPECT_GT(passages[1].halfRun, 1.0);
 }
 
+TEST(NameWay, TellsDoorsOfWaysAndOfLoops) {
+  const Way through{{0, 0, 0}, {3, 0, 0}};
+  const Way before{{0, 0, 0}, {1, 0, 0}};
+  map::Edge edge;
+  nameWay(edge, through, {{kAhead}});
+  EXPECT_EQ(edge.kind, map::EdgeKind::kDoor);
+  EXPECT_EQ(edge.cause, EntityId{1});
+  nameWay(edge, through, {});  // the door was none
+  EXPECT_EQ(edge.kind, map::EdgeKind::kTravelled);
+  EXPECT_EQ(edge.cause, std::nullopt);
+  edge.kind = map::EdgeKind::kLoop;
+  nameWay(edge, through, {{kAhead}});
+  EXPECT_EQ(edge.kind, map::EdgeKind::kLoop);
+  EXPECT_EQ(edge.cause, EntityId{1});
+  nameWay(edge, before, {{kAhead}});
+  EXPECT_EQ(edge.cause, std::nullopt);
+  edge.kind = map::EdgeKind::kStairs;
+  nameWay(edge, through, {{kAhead}});
+  EXPECT_EQ(edge.kind, map::EdgeKind::kStairs);
+  EXPECT_EQ(edge.cause, std::nullopt) << "a door is no flight";
+}
+
 TEST(FlightClimbed, IsTheOneThatTheWayGoesAlong) {
   const Passage flight{{7}, geometry::toPose3({3.0, 0.0, 0.0}), 0.6, 1.5};
   const Passage beside{{8}, geometry::toPose3({3.0, 2.0, 0.0}), 0.6, 1.5};

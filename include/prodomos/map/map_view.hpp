@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,6 +62,8 @@ class MapView {
   }
 
   std::vector<TrajectoryPoint> trajectory() const;  ///< of all sessions, in the order of session and time
+  /// The same one by one, for those who must not hold a long log at once.
+  void visitTrajectory(const std::function<void(const TrajectoryPoint&)>& visit) const;
   std::vector<Event> events() const;
   std::vector<Track> tracks() const;  ///< by id, with all their states
   /// For planners that keep up with a map that grows.

@@ -51,10 +51,10 @@ struct Edge {
   /// Of deviations of the measured T_from_to in its own axes, those of `to`: translation in metres, then rotation
   /// vector in radians. As in localization::Constraint, g2o (but for its half angles) and GTSAM (but for its order).
   Matrix6 information = Matrix6::Zero();
-  std::optional<base::EntityId> cause;  ///< the door or staircase
+  std::optional<base::EntityId> cause;  ///< the door or staircase; also of a loop that leads through a door
 };
 
-/// What is left connected when door, stairs and lift edges are cut (002 §II-A).
+/// What is left connected when all edges are cut that lead through a door, up or down (002 §II-A); overlaps are none.
 struct TopologicalPlace {
   int number = 0;
   std::vector<base::SubMapId> submaps;  ///< ascending
