@@ -78,7 +78,8 @@ geometry::CellBox KnownSpace::box(int storey) const {
 double KnownSpace::freeArea() const {
   std::size_t count = 0;
   for (const auto& [storey, cells] : cellsOfStorey_) {
-    visitCells(cells.box(), [&](geometry::CellIndex cell) { count += isFree(storey, cell) ? 1U : 0U; });
+    const int floor = storey;  // which clang 14 does not let a lambda capture by its binding
+    visitCells(cells.box(), [&](geometry::CellIndex cell) { count += isFree(floor, cell) ? 1U : 0U; });
   }
   return static_cast<double>(count) * kCell * kCell;
 }

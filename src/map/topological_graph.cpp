@@ -227,6 +227,7 @@ std::vector<std::optional<Route>> TopologicalGraph::shortestRoutes(base::SubMapI
     return route;
   };
   std::vector<std::optional<Route>> routes;
+  routes.reserve(to.size());
   for (const auto id : to) routes.push_back(routeTo(id));
   return routes;
 }

@@ -154,7 +154,7 @@ void Mapper::Impl::passOn(map::EdgeKind kind, const geometry::Pose3& T_travel_bo
   lookAround(running_->node().id);
   const auto node = nodeBelow(T_travel_body, time);
   auto edge = edgeBetween(*running_, node, kind);
-  auto way = way_in_map(running_->node().id, running_->way_in_submap());
+  auto way = wayInMap(running_->node().id, running_->wayInSubMap());
   way.push_back(node.T_map_submap.translation());
   nameWay(edge, way, passages());
   nameLoops();

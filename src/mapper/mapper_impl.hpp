@@ -78,7 +78,7 @@ class Mapper::Impl {
   void refine();
   std::vector<Passage> passages() const { return passagesOf(perception_->entities(), submapPoses()); }
   /// Of the robot's feet in the sub-map, on from its origin.
-  std::vector<Eigen::Vector3d> way_in_map(base::SubMapId submap, std::vector<Eigen::Vector3d> way_in_submap) const;
+  std::vector<Eigen::Vector3d> wayInMap(base::SubMapId submap, std::vector<Eigen::Vector3d> way_in_submap) const;
   /// Does the robot stand beyond a door that it came through since the running sub-map began?
   bool hasPassedDoor();
   /// Doors may be found after they were passed: tells all ways once more what they lead through.

@@ -22,8 +22,8 @@ void Mapper::Impl::refine() {
   running_->refine(refiner_.T_map_submap(running_->node().id));
 }
 
-std::vector<Eigen::Vector3d> Mapper::Impl::way_in_map(base::SubMapId submap,
-                                                      std::vector<Eigen::Vector3d> way_in_submap) const {
+std::vector<Eigen::Vector3d> Mapper::Impl::wayInMap(base::SubMapId submap,
+                                                    std::vector<Eigen::Vector3d> way_in_submap) const {
   for (auto& body : way_in_submap) body.z() -= clearance_;
   way_in_submap.insert(way_in_submap.begin(), Eigen::Vector3d::Zero());
   for (auto& foot : way_in_submap) foot = refiner_.T_map_submap(submap) * foot;
@@ -33,7 +33,7 @@ std::vector<Eigen::Vector3d> Mapper::Impl::way_in_map(base::SubMapId submap,
 bool Mapper::Impl::hasPassedDoor() {
   if (running_->node().distance < kLeastWay || !running_->isTimeToLook(RunningSubMap::Look::kForDoorsPassed, kDoorStep))
     return false;
-  const auto way = way_in_map(running_->node().id, running_->way_in_submap());
+  const auto way = wayInMap(running_->node().id, running_->wayInSubMap());
   const auto crossed = doorCrossed(way, passages());
   return crossed && crossed->beyond >= kBeyondDoor;
 }
@@ -50,7 +50,7 @@ void Mapper::Impl::nameWays() {
   const auto known = passages();
   for (auto& edge : refiner_.waysOf(session_.id)) {
     if (edge.kind == map::EdgeKind::kLoop) continue;
-    auto way = way_in_map(edge.from, ways_in_submap[edge.from]);
+    auto way = wayInMap(edge.from, ways_in_submap[edge.from]);
     way.push_back(refiner_.T_map_submap(edge.to).translation());
     nameWay(edge, way, known);
     refiner_.rename(edge);

@@ -38,7 +38,7 @@ bool RunningSubMap::isLeftBy(const map::PlacedReading& placed, const SubMapConfi
   return false;
 }
 
-std::vector<Eigen::Vector3d> RunningSubMap::way_in_submap() const {
+std::vector<Eigen::Vector3d> RunningSubMap::wayInSubMap() const {
   std::vector<Eigen::Vector3d> way;
   for (const auto& point : trajectory_) way.push_back(T_submap_body(point.T_travel_body).translation());
   return way;

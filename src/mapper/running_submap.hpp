@@ -33,7 +33,7 @@ class RunningSubMap {
   void refine(const geometry::Pose3& T_map_submap) { submap_.node.T_map_submap = T_map_submap; }
   const map::SubMap& submap() const { return submap_; }
   /// Where the robot was at each reading; positions of its body.
-  std::vector<Eigen::Vector3d> way_in_submap() const;
+  std::vector<Eigen::Vector3d> wayInSubMap() const;
   /// Every so many metres within, each once: what is asked for here.
   enum class Look { kForDoorsPassed, kAround };
   bool isTimeToLook(Look look, double step);

@@ -247,7 +247,7 @@ std::optional<ScannedDoor> doorOf(const WallLine& wall, const LeafLine& leaf, do
   const Vector2d tip = wall.inWall(leaf.tip);
   if (root.y() < kLeastAxis) return std::nullopt;
   for (const double closing : {1.0, -1.0}) {
-    const auto door = doorOf(wall, LeafInWall{root, tip, (tip - root).normalized(), closing}, leastWidth);
+    auto door = doorOf(wall, LeafInWall{root, tip, (tip - root).normalized(), closing}, leastWidth);
     if (door) return door;
   }
   return std::nullopt;

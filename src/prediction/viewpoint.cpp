@@ -58,7 +58,7 @@ bool facesOpening(const Surroundings& near, const Eigen::Vector2d& spot) {
 }  // namespace
 
 geometry::Pose3 T_submap_near(const map::Entity& entity) {
-  const geometry::Pose3 T_submap_far = T_submap_here(entity);
+  geometry::Pose3 T_submap_far = T_submap_here(entity);
   const auto* stairs = std::get_if<map::Staircase>(&entity.attributes);
   if (stairs == nullptr) return T_submap_far;
   // Both ends lie as far from the entity's middle, at different heights.

@@ -27,6 +27,7 @@ std::vector<std::optional<Route>> routesBetween(const map::MapView& view, const 
                                                 const std::vector<KnownSpot>& to) {
   const auto& graph = view.graph();
   std::vector<base::SubMapId> goals;
+  goals.reserve(to.size());
   for (const auto& spot : to) goals.push_back(spot.submap);
   const auto ofNode = probabilities(view);
   auto ways = graph.shortestRoutes(from.submap, goals);
