@@ -130,7 +130,9 @@ class Logs(SystemTest):
              ("laser/fr079.clf.bz2", {"laser_scan": 4934, "odometry": 13885}))
 
     def test_maps_a_rawlog_and_the_carmen_log_it_was_made_of_alike(self):
-        maps = [self.check(name, "--poses", "odometry", poses="odometry", kinds=kinds) for name, kinds in self.FR079]
+        # Which doorways are found, and so where sub-maps end, may hang by a rounded bit: here it is the way alone.
+        maps = [self.check(name, "--poses", "odometry", "--set", "detectors.enabled=false", poses="odometry", kinds=kinds)
+                for name, kinds in self.FR079]
         self.check_alike(*maps, 1e-9, 1e-5)
 
     def test_estimates_the_same_way_from_a_rawlog_and_its_carmen_log(self):
