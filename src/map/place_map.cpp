@@ -13,8 +13,6 @@ namespace prodomos::map {
 
 namespace {
 
-using geometry::CellIndex;
-
 constexpr std::int32_t kNowhere = -1;
 constexpr double kLeastPlace = 2.0;  // m² of floor; what is smaller and where nobody began is no place
 constexpr double kJamb = 0.15;       // metres that a door is drawn beyond its width, into the wall
@@ -78,8 +76,7 @@ void PlaceMap::addFloor(const MapView& view, std::optional<int> floor) {
 
   const double cellArea = resolution_ * resolution_;
   Numbers numbers(cells.box(), kNowhere);
-  const auto claim = [&](CellIndex start, int number) {
-    const auto piece = geometry::takePiece(cells, start);
+  const auto claim = [&](const geometry::Piece& piece, int number) {
     for (const auto cell : piece) *numbers.find(cell) = number;
     places_[static_cast<std::size_t>(number)].area += static_cast<double>(piece.size()) * cellArea;
   };
@@ -88,13 +85,14 @@ void PlaceMap::addFloor(const MapView& view, std::optional<int> floor) {
       const auto& node = view.graph().getNode(id);
       if (!isOnFloor(node, floor)) continue;
       const auto& origin = node.T_map_submap.translation();
-      claim(geometry::cellAt(origin.x(), origin.y(), resolution_), static_cast<int>(number));
+      const auto start = geometry::cellAt(origin.x(), origin.y(), resolution_);
+      claim(geometry::takePiece(cells, start), static_cast<int>(number));
     }
   }
   for (const auto& piece : geometry::piecesOf(cells)) {
     if (static_cast<double>(piece.size()) * cellArea < kLeastPlace) break;  // they come by size
     places_.push_back({.number = static_cast<int>(places_.size()), .floor = floor, .submaps = {}});
-    claim(piece.front(), places_.back().number);
+    claim(piece, places_.back().number);
   }
   floors_.emplace(floor, std::move(numbers));
 }

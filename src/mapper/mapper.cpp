@@ -156,8 +156,9 @@ void Mapper::Impl::passOn(map::EdgeKind kind, const geometry::Pose3& T_travel_bo
   auto edge = edgeBetween(*running_, node, kind);
   auto way = wayInMap(running_->node().id, running_->wayInSubMap());
   way.push_back(node.T_map_submap.translation());
-  nameWay(edge, way, passages());
-  nameLoops();
+  const auto known = passages();
+  nameWay(edge, way, known);
+  nameLoops(known);
   map::MapChange change;
   perception_->addTo(change);
   predict(running_->node().id, change.tracks);

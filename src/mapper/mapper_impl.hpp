@@ -82,8 +82,8 @@ class Mapper::Impl {
   /// Does the robot stand beyond a door that it came through since the running sub-map began?
   bool hasPassedDoor();
   /// Doors may be found after they were passed: tells all ways once more what they lead through.
-  void nameWays();
-  void nameLoops();
+  void nameWays(std::span<const Passage> known);
+  void nameLoops(std::span<const Passage> known);
   /// For doorways, in a finished sub-map and what lies about it.
   void lookAround(base::SubMapId submap);
   /// Within the running sub-map: who waits for its end has often passed doorways that he could have told of.

@@ -38,7 +38,7 @@ bool Mapper::Impl::hasPassedDoor() {
   return crossed && crossed->beyond >= kBeyondDoor;
 }
 
-void Mapper::Impl::nameWays() {
+void Mapper::Impl::nameWays(std::span<const Passage> known) {
   std::map<base::SubMapId, std::vector<Eigen::Vector3d>> ways_in_submap;
   store_.view().visitTrajectory([&](const map::TrajectoryPoint& point) {
     if (point.session != session_.id) return;
@@ -47,7 +47,6 @@ void Mapper::Impl::nameWays() {
     auto& way = ways_in_submap[point.submap];
     if (way.empty() || (spot - way.back()).norm() >= kWayStep) way.push_back(spot);
   });
-  const auto known = passages();
   for (auto& edge : refiner_.waysOf(session_.id)) {
     if (edge.kind == map::EdgeKind::kLoop) continue;
     auto way = wayInMap(edge.from, ways_in_submap[edge.from]);
@@ -57,8 +56,7 @@ void Mapper::Impl::nameWays() {
   }
 }
 
-void Mapper::Impl::nameLoops() {
-  const auto known = passages();
+void Mapper::Impl::nameLoops(std::span<const Passage> known) {
   for (auto& edge : refiner_.waysOf(session_.id)) {
     if (edge.kind != map::EdgeKind::kLoop) continue;
     // The straight line between its ends is free.

@@ -111,8 +111,9 @@ void Mapper::Impl::finish(const sensors::EndOfLog& end) {
     perception_->finish(running_->submap());
     // Once more everywhere: by now the neighbours are known on all sides, and all poses are the best.
     for (const auto submap : refiner_.nodesOf(session_.id)) lookAround(submap);
-    nameWays();
-    nameLoops();
+    const auto known = passages();
+    nameWays(known);
+    nameLoops(known);
     perception_->addTo(change);
     predict(std::nullopt, change.tracks);
   }

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
 namespace prodomos::prediction {
@@ -127,6 +126,15 @@ void Predictor::lookThroughOpenings(const World& world, std::optional<base::SubM
   }
 }
 
+template <typename Predicate>
+void Predictor::removeWays(Bet& bet, const Predicate& isGone) {
+  std::erase_if(bet.ways, [&](const map::Edge& way) {
+    if (!isGone(way)) return false;
+    removedWays_.push_back(way.id);
+    return true;
+  });
+}
+
 /// Predicted sub-maps follow those that their doors were seen from; a bet on what is believed no more is lost. Entities
 /// of earlier sessions are not among those that are believed, and stay.
 void Predictor::review(const World& world) {
@@ -139,10 +147,9 @@ void Predictor::review(const World& world) {
       settle(bet, PredictionState::kRefuted, world.session, world.now);
       continue;
     }
-    for (const auto& way : std::span(bet.ways).subspan(1)) {
-      if (findById(world.entities, *way.cause) == nullptr) removedWays_.push_back(way.id);
-    }
-    std::erase_if(bet.ways, [this](const map::Edge& way) { return std::ranges::count(removedWays_, way.id) > 0; });
+    removeWays(bet, [&](const map::Edge& way) {
+      return way.cause != bet.prediction.cause && findById(world.entities, *way.cause) == nullptr;
+    });
     place(world, bet, *submap);
   }
 }
@@ -187,11 +194,7 @@ void Predictor::share(const World& world, const map::Entity& entity, const map::
 void Predictor::leave(base::EntityId entity, const Bet* except) {
   for (auto& bet : bets_) {
     if (&bet == except || bet.prediction.state != PredictionState::kOpen) continue;
-    std::erase_if(bet.ways, [&](const map::Edge& way) {
-      const bool leaves = way.cause == entity;
-      if (leaves) removedWays_.push_back(way.id);
-      return leaves;
-    });
+    removeWays(bet, [entity](const map::Edge& way) { return way.cause == entity; });
   }
 }
 

@@ -55,6 +55,8 @@ class Predictor {
   Bet* roomBehind(const map::Entity& entity, const map::Node& submap);
   void share(const World& world, const map::Entity& entity, const map::Node& submap, Bet& room);
   void leave(base::EntityId entity, const Bet* except);
+  template <typename Predicate>
+  void removeWays(Bet& bet, const Predicate& isGone);
   void bet(const World& world, const map::Entity& entity, const map::Node& submap);
   void follow(const World& world, const map::Entity& entity, const map::Node& submap, Bet& bet);
   void settle(Bet& bet, map::PredictionState state, base::SessionId session, base::Time now,
