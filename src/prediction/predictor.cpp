@@ -148,7 +148,9 @@ void Predictor::review(const World& world) {
       continue;
     }
     removeWays(bet, [&](const map::Edge& way) {
-      return way.cause != bet.prediction.cause && findById(world.entities, *way.cause) == nullptr;
+      const auto* const from = findById(world.nodes, way.from);
+      const bool isOurs = from != nullptr && from->session == world.session;
+      return isOurs && way.cause != bet.prediction.cause && findById(world.entities, *way.cause) == nullptr;
     });
     place(world, bet, *submap);
   }

@@ -91,6 +91,13 @@ class World {
     return stairs.id;
   }
 
+  /// Which knows nothing of the entities of the one before.
+  void beginAnotherSession() {
+    session_ = {session_.value + 1};
+    store_.commit({.sessions = {{.id = session_, .log = "another log", .config = ""}}});
+    entities_.clear();
+  }
+
   void remove(base::EntityId id) {
     std::erase_if(entities_, [id](const map::Entity& entity) { return entity.id == id; });
   }
@@ -117,7 +124,7 @@ class World {
  private:
   prediction::World known(double now) {
     return {.now = base::fromNanoseconds(std::int64_t(now * 1e9)),
-            .session = {1},
+            .session = session_,
             .entities = entities_,
             .nodes = nodes_,
             .gridsNear = [this](const Eigen::Vector3d&) { return grids_; },
@@ -141,6 +148,7 @@ class World {
   std::vector<map::Node> nodes_;
   std::vector<PlacedGrid> grids_;
   std::vector<map::Entity> entities_;
+  base::SessionId session_{1};
   std::int64_t nextNode_ = 1;
   std::int64_t nextEdge_ = 1;
 };
@@ -247,6 +255,26 @@ TEST(Predictor, TwoDoorsIntoOneRoomLeadToOneNode) {
   world.remove(second);
   world.update(predictor, 8.0);
   EXPECT_EQ(world.view().predictions()[0].state, PredictionState::kOpen);
+  EXPECT_THAT(world.view().graph().edgesOf(node), SizeIs(1));
+}
+
+TEST(Predictor, ALaterSessionKeepsTheWaysOfEarlierOnes) {
+  World world;
+  world.addDoor(0.0);
+  Predictor predictor({}, world.view());
+  world.update(predictor, 5.0);
+  const auto bet = world.view().predictions().at(0);
+  double farthest = 0.0;
+  for (const auto& corner : bet.room_in_node) farthest = std::max(farthest, corner.x());
+  const double depth = bet.T_submap_node.translation().y() + farthest;
+  const auto behind = world.addSubMap({0.0, depth + 1.2, 0.0}, roomWithGap(200, 22, 0), {-100, -11});
+  world.addDoorBack(behind, 0.3);
+  world.update(predictor, 6.0);
+  ASSERT_THAT(world.view().graph().edgesOf(bet.node), SizeIs(2));
+  world.beginAnotherSession();
+  Predictor later({}, world.view());
+  world.update(later, 7.0);
+  EXPECT_THAT(world.view().graph().edgesOf(bet.node), SizeIs(2));
 }
 
 TEST(Predictor, SaysNothingOfDoorsThatWereGivenUpBeforeAnybodyHeardOfThem) {
